@@ -7,7 +7,7 @@
                                    that is declared in a room but defined above it is an upward dependency, too
     check_layers.py --write-docs   writes the table in docs/architecture.md
 
-A room that grows too large is divided into rooms of its own, such as geometry/distance. An entry `geometry` allows all
+A room of more than 40 files is divided into rooms of its own, such as geometry/distance. An entry `geometry` allows all
 of its rooms.
 """
 
@@ -17,6 +17,8 @@ import subprocess
 import sys
 from collections import defaultdict
 from pathlib import Path
+
+from public_headers import publicHeaders
 
 SOURCE = Path(__file__).resolve().parent.parent / "src" / "kinegraph"
 
@@ -34,7 +36,8 @@ BELOW: dict[str, list[str]] = {
     "math": ["common"],
     "gfile": ["common"],
     "geometry/shapes": _CORE,
-    "geometry/distance": [*_CORE, "geometry/shapes"],
+    "geometry/distance/closed_form": [*_CORE, "geometry/shapes"],
+    "geometry/distance": [*_CORE, "geometry/shapes", "geometry/distance/closed_form"],
     "geometry/files": [*_CORE, "geometry/shapes"],
     "trajectories": _CORE,
     "nlp": _CORE,
@@ -48,7 +51,10 @@ BELOW: dict[str, list[str]] = {
     "rrt": _CORE,
     "kinematics": [*_CORE, "geometry"],
     "collision": [*_CORE, "geometry", "kinematics"],
-    "parsers": [*_CORE, "gfile", "geometry"],
+    "parsers/xml": [*_CORE, "gfile", "geometry"],
+    "parsers/mjcf": [*_CORE, "gfile", "geometry", "parsers/xml"],
+    "parsers/urdf": [*_CORE, "gfile", "geometry", "parsers/xml"],
+    "parsers": [*_CORE, "gfile", "geometry", "parsers/xml", "parsers/mjcf", "parsers/urdf"],
     "scene/tree": [*_MODEL, "gfile", "parsers"],
     "scene/loading": [*_MODEL, "gfile", "parsers", "scene/tree"],
     "scene": [*_MODEL, "gfile", "parsers", "scene/tree", "scene/loading"],
@@ -73,13 +79,16 @@ BELOW: dict[str, list[str]] = {
     "logic": ["common", "gfile"],
     "task_planning": [*_PROBLEMS, "ik", "logic"],
     "task_planning/lgp": [*_PROBLEMS, "logic", "task_planning"],
+    "task_planning/motions": [*_PLANNING, "logic", "planning", "task_planning"],
     "task_planning/search": [*_PLANNING, "logic", "planning", "task_planning"],
-    "rendering": _SCENE,
+    "rendering/gl": ["common"],
+    "rendering": [*_SCENE, "rendering/gl"],
     "perception": [*_SCENE, "rendering"],
     "simulation": [*_SCENE, "trajectories", "rendering"],
     "robot": [*_SCENE, "trajectories", "simulation"],
     "viewer/messages": _SCENE,
     "viewer": [*_SCENE, "exporters", "viewer/messages"],
+    "api/execution": EVERYTHING,
     "api": EVERYTHING,
     ".": EVERYTHING,
 }
@@ -109,8 +118,9 @@ DOORS: dict[tuple[str, str], set[str]] = {
         "ConfigViewer::setWindow",
     },
     ("task_planning/lgp", "api"): {"LgpTool::view_close", "LgpTool::view_solved"},
+    ("task_planning/search", "api/execution"): {"TaskPlan::execute"},
     ("task_planning/search", "api"): {
-        *{"TaskPlan::execute", "TaskPlan::failedConfiguration", "TaskPlan::frames", "TaskPlan::play", "TaskPlan::view"},
+        *{"TaskPlan::failedConfiguration", "TaskPlan::frames", "TaskPlan::play", "TaskPlan::view"},
     },
 }
 GROUPS = {
@@ -125,6 +135,7 @@ CONTENTS = {
     "math": "poses, rotations, SIMD lanes, banded factorizations",
     "gfile": "the `.g` text format: lexer, parser, value tree, writer; no robotics",
     "geometry/shapes": "shapes, meshes, hulls, masses, as values",
+    "geometry/distance/closed_form": "distances of boxes, cylinders and points by formulas",
     "geometry/distance": "collision bodies and the signed distance between two of them",
     "geometry/files": "meshes, grids and images read from files",
     "trajectories": "B-splines, the abstract `Trajectory`, time parameterization within limits; no robots",
@@ -139,7 +150,10 @@ CONTENTS = {
     "rrt": "RRT-Connect, search trees and shortcuts over an abstract search space",
     "kinematics": "joints, `KinematicModel`, `State`, Jacobians, dynamics, SIMD kernels",
     "collision": "near pairs of bodies, collision checks of configurations, edges and motions",
-    "parsers": "URDF, MJCF and SRDF, translated to the value tree of a `.g` file",
+    "parsers/xml": "XML documents, findings in files, attributes of frames",
+    "parsers/mjcf": "MJCF, translated to the value tree of a `.g` file",
+    "parsers/urdf": "URDF and SRDF, translated likewise",
+    "parsers": "which parser reads a file",
     "scene/tree": "the frames of a scene as data, compilation to a `KinematicModel`, edits of whole trees",
     "scene/loading": "value trees to frames, joints and shapes",
     "scene": "`Config` and `Frame`, the scene that people edit",
@@ -161,16 +175,20 @@ CONTENTS = {
     "logic": "facts, rules, `.fol` and PDDL files, grounding, plan search; no geometry",
     "task_planning": "manipulation helpers, facts of a scene, task rules, waypoint problems",
     "task_planning/lgp": "`LGP_Tool` and its abstraction of actions",
+    "task_planning/motions": "motions of the actions of a plan, and their contacts",
     "task_planning/search": "`planTask`, `checkTaskPlan`",
+    "rendering/gl": "OpenGL: context, functions, programs, images",
     "rendering": "camera images without a display",
     "perception": "poses of known shapes from depth images",
     "simulation": "a scene in time: MuJoCo, motors, grippers, simulation state",
     "robot": "`BotOp`, robot drivers, rate limiter and safety limits",
     "viewer/messages": "messages between the server and the page",
     "viewer": "the web server of the page, the shown scene, edits made in a browser",
+    "api/execution": "`plan.execute`: motions, observations, events, repairs",
     "api": "calls that combine rooms, short names for C++ programs",
     ".": "`kinegraph.h`, the header for users",
 }
+MOST_FILES = 40  # of a room without rooms
 PAGE = "client_page.cpp"  # written by the build, for the viewer
 DOCS = SOURCE.parent.parent / "docs" / "architecture.md"
 TABLE = re.compile(r"(?<=<!-- written by tools/check_layers.py --write-docs -->\n).*?(?=<!-- end -->)", re.DOTALL)
@@ -184,6 +202,9 @@ def allowed(room: str, other: str) -> bool:
 def include_problems() -> list[str]:
     """Returns the rooms that are missing from BELOW, and the includes that it does not allow."""
     problems = []
+    for folder in [SOURCE / room for room in BELOW]:
+        if len(files := list(folder.glob("*.*"))) > MOST_FILES and not any(f.is_dir() for f in folder.iterdir()):
+            problems.append(f"{folder.name}: {len(files)} files; divide it into rooms of at most {MOST_FILES}")
     for file in sorted(SOURCE.rglob("*.[ch]*")):
         room = file.parent.relative_to(SOURCE).as_posix()
         if room not in BELOW:
@@ -222,24 +243,59 @@ def door_problems() -> list[str]:
     return problems
 
 
+def namespace_of(file: Path, public: set[str]) -> str:
+    """Returns the inner namespace of what a header declares: none for the public face, else the one of its room."""
+    room = file.relative_to(SOURCE).parts[0]
+    is_public = file.relative_to(SOURCE.parent).as_posix() in public or room == file.name
+    return "" if is_public else f"{room}_internal"
+
+
+def blocks(text: str) -> list[tuple[str, str]]:
+    """Returns the parts of a file in namespace kinegraph, each with its inner namespace."""
+    parts = re.split(r"^namespace kinegraph(?:::inline (\w+))? \{$", text, flags=re.MULTILINE)
+    ends = (
+        re.split(r"^\}(?: +// namespace kinegraph.*)?$", part, maxsplit=1, flags=re.MULTILINE)[0]
+        for part in parts[2::2]
+    )
+    return list(zip([inner or "" for inner in parts[1::2]], ends, strict=True))
+
+
 def name_problems() -> list[str]:
-    """Returns the types with one name: two of namespace kinegraph, or one of it and one of an unnamed namespace. All
-    rooms share the namespace, and CMake compiles files of a room together."""
-    shared: dict[str, set[str]] = defaultdict(set)
-    local: dict[str, set[str]] = defaultdict(set)
+    """Returns what is not in the namespace of its file, and declarations of types outside of their namespaces. Returns
+    types of one name in one room, or in a room and on the public face, too. CMake compiles the files of a room
+    together, so that types of unnamed namespaces count."""
+    public = set(publicHeaders(SOURCE.parent))
+    problems = []
+    shared: dict[tuple[str, str], set[str]] = defaultdict(set)
+    local: dict[tuple[str, str], set[str]] = defaultdict(set)
+    declared: list[tuple[str, str, str]] = []
     for file in sorted(SOURCE.rglob("*.[ch]*")):
-        text = file.read_text()
-        if not re.search(r"^namespace kinegraph \{", text, re.MULTILINE):
-            continue  # of a namespace of its own, such as kinegraph::lanes
-        unnamed = False
-        for line in text.splitlines():
-            unnamed = (unnamed or line == "namespace {") and line != "}  // namespace"
-            if match := re.match(r"(?:struct|class|enum(?: class)?) (\w+)(?: final)?(?: : [^:].*)? \{", line):
-                (local if unnamed else shared)[match[1]].add(file.relative_to(SOURCE.parent.parent).as_posix())
-    problems = [f"{name}: types in {' and '.join(sorted(files))}" for name, files in shared.items() if len(files) > 1]
-    for name in sorted(shared.keys() & local.keys()):
-        problems.append(f"{name}: a type in {', '.join(shared[name])} and in {', '.join(local[name])}")
-    return [f"{problem}; rename one" for problem in problems]
+        place, own = file.relative_to(SOURCE.parent.parent).as_posix(), namespace_of(file, public)
+        for inner, text in blocks(file.read_text()):
+            forward = re.findall(r"^(?:class|struct) (\w+);$", text, re.MULTILINE)
+            declared += [(place, inner, name) for name in forward]
+            if len(forward) == len(text.strip().splitlines()):
+                continue
+            of_public = re.search(r"^(?:struct|class|enum class) \w+::\w+", text, re.MULTILINE)
+            if inner != own and (inner or (file.suffix == ".h" and not of_public)):
+                where = f"kinegraph::inline {own}" if own else "kinegraph"
+                problems.append(f"{place}: declares things outside of namespace {where}")
+            unnamed = False
+            for line in text.splitlines():
+                unnamed = (unnamed or line == "namespace {") and line != "}  // namespace"
+                if match := re.match(r"(?:struct|class|enum(?: class)?) (\w+)(?: final)?(?: : [^:].*)? \{", line):
+                    (local if unnamed else shared)[inner, match[1]].add(place)
+    homes: dict[str, set[str]] = defaultdict(set)
+    for inner, name in shared:
+        homes[name].add(inner)
+    for (inner, name), files in [*shared.items(), *local.items()]:
+        both = files | shared.get((inner, name), set()) | shared.get(("", name), set())
+        if len(both) > len(files) or ((inner, name) in shared and len(files) > 1):
+            problems.append(f"{name}: types in {' and '.join(sorted(both))}; rename one")
+    for place, inner, name in declared:
+        if name in homes and inner not in homes[name]:
+            problems.append(f"{place}: declares {name} outside of namespace kinegraph::inline {min(homes[name])}")
+    return problems
 
 
 def room_list(rooms: list[str]) -> str:

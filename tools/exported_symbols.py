@@ -4,8 +4,8 @@
     python tools/exported_symbols.py SOURCE NM OUTPUT OBJECT...
 
 SOURCE is the folder src, NM the program that lists the symbols of the OBJECTs, OUTPUT the version script. A symbol is
-exported if a public header names its class or function of namespace kinegraph. Inline functions are not exported,
-because users compile their own copies.
+exported if a public header names its class or function of namespace kinegraph. What is in the inner namespace of a room
+is not exported, and neither are inline functions, because users compile their own copies.
 """
 
 import re
@@ -20,13 +20,14 @@ OF_CLASS = re.compile(
     r"^(?:(?:construction )?vtable|typeinfo(?: name)?|VTT|guard variable|(?:non-)?virtual thunk) (?:for|to) "
 )
 OWNER = re.compile(r"^kinegraph::(\w+)")
+INNER = re.compile("_internal$")  # namespaces of rooms
 NOT_CODE = re.compile(r'//[^\n]*|/\*.*?\*/|"[^"\n]*"|^#.*?$', re.MULTILINE | re.DOTALL)
 
 
 def publicNames(source: Path) -> set[str]:
     """Returns all identifiers of the public headers, without comments, strings and directives."""
     texts = ((source / header).read_text() for header in publicHeaders(source))
-    return {word for text in texts for word in re.findall(r"\w+", NOT_CODE.sub(" ", text))}
+    return {word for text in texts for word in re.findall(r"\w+", NOT_CODE.sub(" ", text)) if not INNER.search(word)}
 
 
 def symbols(nm: str, objects: list[str]) -> list[tuple[str, str, str]]:
@@ -45,6 +46,7 @@ def symbols(nm: str, objects: list[str]) -> list[tuple[str, str, str]]:
 
 
 def isExported(kind: str, for_people: str, names: set[str]) -> bool:
+    """`names` are those of the public face of namespace kinegraph."""
     owner = OWNER.match(OF_CLASS.sub("", for_people))
     return kind in KINDS and owner is not None and owner[1] in names
 

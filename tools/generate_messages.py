@@ -54,7 +54,7 @@ def make_header(schema: dict) -> str:
         "#include <string>",
         "#include <vector>",
         "",
-        "namespace kinegraph {",
+        "namespace kinegraph::inline viewer_internal {",
         "",
         "/// First 4 bytes of a binary message to the client.",
         "enum class BinaryKind : std::uint32_t {",
@@ -65,12 +65,18 @@ def make_header(schema: dict) -> str:
         out += cpp_struct(name, fields)
     out += ["", "/// Encodes messages for the client."]
     out += [f"std::string jsonText(const {name}& message);" for name in schema["messages"]]
-    return "\n".join([*out, "", "}  // namespace kinegraph", ""])
+    return "\n".join([*out, "", "}  // namespace kinegraph::inline viewer_internal", ""])
 
 
 def make_source(schema: dict) -> str:
     out = ['#include "kinegraph/viewer/messages/messages.h"', "", f"// {NOTE}", "// clang-format off", ""]
-    out += ['#include "kinegraph/common/json.h"', "", "namespace kinegraph {"]
+    out += [
+        '#include "kinegraph/common/json.h"',
+        "",
+        "namespace kinegraph::inline viewer_internal {",
+        "",
+        "using common_internal::jsonOf;",
+    ]
     for name, fields in {**schema["types"], **schema["messages"]}.items():
         kind = [f'{{"kind", "{tag(name)}"}}'] if name in schema["messages"] else []
         entries = [*kind, *[f'{{"{field}", jsonOf(m.{field})}}' for field in fields]]
@@ -82,7 +88,7 @@ def make_source(schema: dict) -> str:
             "",
             f"std::string jsonText(const {name}& message) {{ return boost::json::serialize(jsonOf(message)); }}",
         ]
-    return "\n".join([*out, "", "}  // namespace kinegraph", ""])
+    return "\n".join([*out, "", "}  // namespace kinegraph::inline viewer_internal", ""])
 
 
 def make_commands_cpp(schema: dict) -> str:
@@ -97,7 +103,11 @@ def make_commands_cpp(schema: dict) -> str:
         "#include <variant>",
         "",
     ]
-    out += ['#include "kinegraph/viewer/messages/command_reader.h"', "", "namespace kinegraph {"]
+    out += [
+        '#include "kinegraph/viewer/messages/command_reader.h"',
+        "",
+        "namespace kinegraph::inline viewer_internal {",
+    ]
     for number, (name, fields) in enumerate(schema["commands"].items(), 1):
         out += cpp_struct(name, fields, [f"  static constexpr int kKind = {number};"])
     names = ", ".join(schema["commands"])
@@ -108,7 +118,7 @@ def make_commands_cpp(schema: dict) -> str:
     for name, fields in schema["commands"].items():
         members = "".join(f", &{name}::{field}" for field in fields)
         out.append(f"    case {name}::kKind: return readFields<{name}>(reader{members});")
-    out += ["  }", "  return std::nullopt;", "}", "", "}  // namespace kinegraph", ""]
+    out += ["  }", "  return std::nullopt;", "}", "", "}  // namespace kinegraph::inline viewer_internal", ""]
     return "\n".join(out)
 
 

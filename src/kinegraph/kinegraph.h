@@ -15,15 +15,15 @@
 
 #include "kinegraph/common/compiler_check.h"
 
-#include "kinegraph/api/batch_queries.h"    // isValid, isMotionFree, getFramePoses, getDistances
-#include "kinegraph/api/camera_view.h"      // CameraView: images
-#include "kinegraph/api/custom_feature.h"   // functions of frames as features
-#include "kinegraph/api/names.h"            // modelPath; FS, OT, ST, KOMO, NLP_Solver, ...
-#include "kinegraph/api/next_view.h"        // nextView: where to hold a camera
-#include "kinegraph/api/recorded_motion.h"  // recordedMotion: a simulated run for the page
-#include "kinegraph/api/robot_motion.h"     // retime of a robot's path; servo: DiffIk along a target that moves
-#include "kinegraph/api/solutions.h"        // Sensitivity: derivatives of solutions; solveAll: several problems at once
-#include "kinegraph/api/task_execution.h"   // execution of a task plan by a BotOp
+#include "kinegraph/api/batch_queries.h"             // isValid, isMotionFree, getFramePoses, getDistances
+#include "kinegraph/api/camera_view.h"               // CameraView: images
+#include "kinegraph/api/custom_feature.h"            // functions of frames as features
+#include "kinegraph/api/execution/task_execution.h"  // execution of a task plan by a BotOp
+#include "kinegraph/api/names.h"                     // modelPath; FS, OT, ST, KOMO, NLP_Solver, ...
+#include "kinegraph/api/next_view.h"                 // nextView: where to hold a camera
+#include "kinegraph/api/recorded_motion.h"           // recordedMotion: a simulated run for the page
+#include "kinegraph/api/robot_motion.h"  // retime of a robot's path; servo: DiffIk along a target that moves
+#include "kinegraph/api/solutions.h"     // Sensitivity: derivatives of solutions; solveAll: several problems at once
 #include "kinegraph/collision/edge_check.h"  // EdgeChecker: collision checks of configurations and edges; withinLimits
 #include "kinegraph/common/errors.h"         // exceptions
 #include "kinegraph/common/log.h"            // setLogSink: messages of the library

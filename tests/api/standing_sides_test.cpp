@@ -1,4 +1,4 @@
-#include "kinegraph/api/standing_sides.h"
+#include "kinegraph/api/execution/standing_sides.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "kinegraph/api/task_execution.h"
+#include "kinegraph/api/execution/task_execution.h"
 
 #include <gtest/gtest.h>
 

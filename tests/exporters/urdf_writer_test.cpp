@@ -6,7 +6,7 @@
 #include <fstream>
 
 #include "kinegraph/gfile/writer.h"
-#include "kinegraph/parsers/urdf_reader.h"
+#include "kinegraph/parsers/urdf/urdf_reader.h"
 #include "kinegraph/scene/tree/scene_tree.h"
 #include "tests/exporters/random_scene.h"
 #include "tests/support/scene.h"

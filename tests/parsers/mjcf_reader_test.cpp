@@ -1,4 +1,4 @@
-#include "kinegraph/parsers/mjcf_reader.h"
+#include "kinegraph/parsers/mjcf/mjcf_reader.h"
 
 #include <filesystem>
 #include <fstream>

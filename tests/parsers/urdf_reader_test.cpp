@@ -1,4 +1,4 @@
-#include "kinegraph/parsers/urdf_reader.h"
+#include "kinegraph/parsers/urdf/urdf_reader.h"
 
 #include <gtest/gtest.h>
 

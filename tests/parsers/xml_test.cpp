@@ -1,4 +1,4 @@
-#include "kinegraph/parsers/xml.h"
+#include "kinegraph/parsers/xml/xml.h"
 
 #include <gtest/gtest.h>
 

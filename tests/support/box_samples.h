@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "kinegraph/common/text.h"
-#include "kinegraph/geometry/distance/box_distance.h"
+#include "kinegraph/geometry/distance/closed_form/box_distance.h"
 #include "tests/support/geometry_samples.h"
 
 namespace kinegraph::testing {

@@ -5,7 +5,7 @@
 
 #include "arguments.h"
 #include "arrays.h"
-#include "kinegraph/api/task_execution.h"
+#include "kinegraph/api/execution/task_execution.h"
 #include "kinegraph/common/text.h"
 #include "perception/scene_observer_object.h"
 #include "python_names.h"

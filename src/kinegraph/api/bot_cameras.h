@@ -3,7 +3,7 @@
 #include "kinegraph/rendering/camera_renderer.h"
 #include "kinegraph/robot/bot_op.h"
 
-namespace kinegraph {
+namespace kinegraph::inline api_internal {
 
 /// Renders the world of a BotOp from a copy, so that the robot is not delayed.
 class BotCameras {
@@ -19,4 +19,4 @@ class BotCameras {
   CameraRenderer renderer_;
 };
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline api_internal

@@ -4,7 +4,7 @@
 
 #include "kinegraph/viewer/server.h"
 
-namespace kinegraph {
+namespace kinegraph::inline api_internal {
 
 std::vector<ShownRun::Contact> shownContacts(const std::vector<Contact>& contacts) {
   constexpr std::size_t kMaxContacts = 500;
@@ -38,4 +38,4 @@ bool BotStage::isWatched() const {
   return viewer && viewer->clients() > 0;
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline api_internal

@@ -8,7 +8,7 @@
 #include "kinegraph/viewer/config_viewer.h"
 #include "kinegraph/viewer/messages/shown_run.h"
 
-namespace kinegraph {
+namespace kinegraph::inline api_internal {
 
 /// Converts contacts for the page, at most as many as it can draw.
 std::vector<ShownRun::Contact> shownContacts(const std::vector<Contact>& contacts);
@@ -32,4 +32,4 @@ class BotStage {
   CancellationToken cancellation_;
 };
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline api_internal

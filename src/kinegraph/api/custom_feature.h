@@ -7,9 +7,11 @@
 #include "kinegraph/features/custom_feature.h"
 #include "kinegraph/features/feature_source.h"
 
-namespace kinegraph {
-
+namespace kinegraph::inline kinematics_internal {
 class State;
+}
+
+namespace kinegraph {
 
 /// A frame at one configuration, the argument of a custom feature. Valid during the call only.
 class FrameView {

@@ -7,7 +7,7 @@
 #include "kinegraph/komo/objective_list.h"
 #include "kinegraph/viewer/scene_items.h"
 
-namespace kinegraph {
+namespace kinegraph::inline api_internal {
 
 namespace {
 
@@ -101,4 +101,4 @@ ShownMotion motionOf(const Komo& komo) {
   return motion;
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline api_internal

@@ -8,7 +8,7 @@
 #include "kinegraph/rendering/projection.h"
 #include "kinegraph/scene/tree/scene_tree.h"
 
-namespace kinegraph {
+namespace kinegraph::inline api_internal {
 
 namespace {
 
@@ -160,4 +160,4 @@ void PageDrawings::write(const Listed& drawings, SceneTree& scene, const Camera&
   std::erase_if(letters_, [&](const auto& entry) { return !used.contains(&entry.second); });
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline api_internal

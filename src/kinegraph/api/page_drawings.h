@@ -11,7 +11,7 @@
 #include "kinegraph/rendering/picture_drawings.h"
 #include "kinegraph/viewer/page_content.h"
 
-namespace kinegraph {
+namespace kinegraph::inline api_internal {
 
 /// Converts what programs draw on a viewer's page for pictures. Meshes and letters are kept for the next picture.
 class PageDrawings {
@@ -31,4 +31,4 @@ class PageDrawings {
   std::map<std::tuple<std::string, int, int>, Letters> letters_;  ///< by text, width and height of the image
 };
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline api_internal

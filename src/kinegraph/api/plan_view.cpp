@@ -15,7 +15,7 @@ constexpr double kSecondsPerWaypoint = .05, kMinSeconds = 1.;  // playback of a 
 
 }  // namespace
 
-ShownMotion shownPlan(const MotionPlan& plan, const Config& picture) {
+ShownMotion api_internal::shownPlan(const MotionPlan& plan, const Config& picture) {
   const double seconds = std::max(plan.options.timing ? plan.duration() : plan.length, 1e-3);
   ShownMotion motion = motionAlong(picture, plan.path, seconds);
   motion.start = ShownMotion::Start::play;

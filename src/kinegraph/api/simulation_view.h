@@ -10,7 +10,7 @@
 #include "kinegraph/viewer/config_viewer.h"
 #include "kinegraph/viewer/server.h"
 
-namespace kinegraph {
+namespace kinegraph::inline api_internal {
 
 /// Shows a simulation live on a page and serves the users' requests: see Simulation::view.
 class SimulationView : public SimulationObserver {
@@ -70,4 +70,4 @@ class SimulationView : public SimulationObserver {
   double measured_time_ = 0., factor_ = 0.;
 };
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline api_internal

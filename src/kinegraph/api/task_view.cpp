@@ -25,7 +25,7 @@ void followScene(Config& C, Config& scene, const VectorXd& q) {
 
 }  // namespace
 
-void playTask(const TaskPlan& plan, Config& C, bool pause, const ShowScene& show) {
+void api_internal::playTask(const TaskPlan& plan, Config& C, bool pause, const ShowScene& show) {
   plan.requireScenes("play");
   for (std::size_t i = 0; i < plan.actions.size(); ++i) {
     const std::string text = planText({plan.actions[i]});
@@ -59,7 +59,7 @@ std::vector<MatrixXd> TaskPlan::frames(const Config& C, double rate) const {
   return poses;
 }
 
-const TaskBranch* farthestFailed(const TaskPlan& plan) {
+const TaskBranch* api_internal::farthestFailed(const TaskPlan& plan) {
   const TaskBranch* farthest = nullptr;
   for (const TaskBranch& branch : plan.tree)
     if (branch.failed_configuration && (!farthest || branch.actions.size() > farthest->actions.size()))
@@ -84,7 +84,7 @@ Config TaskPlan::failedConfiguration(const Config& C) const {
   return scene;
 }
 
-ShownMotion taskMotion(const TaskPlan& plan, const Config& C) {
+ShownMotion api_internal::taskMotion(const TaskPlan& plan, const Config& C) {
   constexpr double kRate = 25.;  // slices per second
   ShownMotion motion;
   motion.seconds = std::max(plan.duration(), 1e-3);
@@ -102,7 +102,7 @@ ShownMotion taskMotion(const TaskPlan& plan, const Config& C) {
   return motion;
 }
 
-Config failedScene(const TaskPlan& plan, const Config& C) {
+Config api_internal::failedScene(const TaskPlan& plan, const Config& C) {
   return farthestFailed(plan) ? plan.failedConfiguration(C) : Config(C);
 }
 

@@ -6,7 +6,7 @@
 #include "kinegraph/task_planning/search/task_plan.h"
 #include "kinegraph/viewer/messages/shown.h"
 
-namespace kinegraph {
+namespace kinegraph::inline api_internal {
 
 /// Shows a Config with a text; `pause` waits for a key. Returns the key, or 0.
 using ShowScene = std::function<int(bool pause, const std::string& text)>;
@@ -25,4 +25,4 @@ const TaskBranch* farthestFailed(const TaskPlan& plan);
 /// longest branch, if one did.
 Config failedScene(const TaskPlan& plan, const Config& C);
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline api_internal

@@ -129,8 +129,8 @@ class ToolPathDrawing {
 
 }  // namespace
 
-void drawToolPaths(ProgrammableViewer& viewer, const Config& config, const std::vector<ToolPath>& paths,
-                   const ToolPathPlan& plan) {
+void api_internal::drawToolPaths(ProgrammableViewer& viewer, const Config& config, const std::vector<ToolPath>& paths,
+                                 const ToolPathPlan& plan) {
   for (const char* what : {"failure", "cause"}) removeIfDrawn(viewer, cat(kDrawing, ", ", what));
   for (int k = 0; removeIfDrawn(viewer, cat(kDrawing, " ", k, ", asked")); ++k)
     for (const char* what : {"start", "end", "cone", "speed"}) removeIfDrawn(viewer, cat(kDrawing, " ", k, ", ", what));
@@ -142,7 +142,7 @@ void drawToolPaths(ProgrammableViewer& viewer, const Config& config, const std::
   }
 }
 
-ShownMotion shownToolPath(const ToolPathPlan& plan, const Config& config) {
+ShownMotion api_internal::shownToolPath(const ToolPathPlan& plan, const Config& config) {
   MatrixXd rows = plan.reached;
   double seconds = kSecondsOfReached;
   if (plan.feasible()) {

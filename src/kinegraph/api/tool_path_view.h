@@ -6,7 +6,7 @@
 #include "kinegraph/viewer/messages/shown.h"
 #include "kinegraph/viewer/programmable_viewer.h"
 
-namespace kinegraph {
+namespace kinegraph::inline api_internal {
 
 /// Draws the paths of a plan: the curve that is asked (gray), the way of the tool, green at its largest speed, yellow
 /// at half of it, red at rest; axes at both ends, the cone of free axes, and the place of a failure with its message.
@@ -18,4 +18,4 @@ void drawToolPaths(ProgrammableViewer& viewer, const Config& config, const std::
 /// plays at once. Empty if there are none.
 ShownMotion shownToolPath(const ToolPathPlan& plan, const Config& config);
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline api_internal

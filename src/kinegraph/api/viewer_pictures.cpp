@@ -48,7 +48,7 @@ Camera ViewCamera::now() {
   return camera_;
 }
 
-PageCamera pageCameraOf(const Camera& camera) {
+PageCamera api_internal::pageCameraOf(const Camera& camera) {
   PageCamera page{camera.pose};
   page.focal_length = camera.focal_length;
   page.ortho_height = camera.ortho_height;

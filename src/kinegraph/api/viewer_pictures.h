@@ -11,7 +11,7 @@
 #include "kinegraph/rendering/picture_renderer.h"
 #include "kinegraph/viewer/config_viewer.h"
 
-namespace kinegraph {
+namespace kinegraph::inline api_internal {
 
 /// A fixed camera, or one that follows a frame.
 class ViewCamera {
@@ -99,4 +99,4 @@ class ViewerPictures {
   std::optional<CameraRenderer> writer_;  ///< of texts
 };
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline api_internal

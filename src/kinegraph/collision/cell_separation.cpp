@@ -5,15 +5,15 @@
 #include <cmath>
 #include <optional>
 
-#include "kinegraph/geometry/distance/box_box_distance.h"
-#include "kinegraph/geometry/distance/box_distance.h"
 #include "kinegraph/geometry/distance/cell_field.h"
+#include "kinegraph/geometry/distance/closed_form/box_box_distance.h"
+#include "kinegraph/geometry/distance/closed_form/box_distance.h"
 #include "kinegraph/geometry/distance/convex_distance.h"
 #include "kinegraph/geometry/distance/grid_field.h"
 #include "kinegraph/geometry/distance/proximity.h"
 #include "kinegraph/geometry/distance/separation.h"
 
-namespace kinegraph {
+namespace kinegraph::inline collision_internal {
 
 namespace {
 
@@ -204,4 +204,4 @@ CellVerdict separateFromCells(const MotionAmongCells& motion, double margin) {
   return CellSeparation(motion, margin).run();
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline collision_internal

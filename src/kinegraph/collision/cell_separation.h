@@ -3,7 +3,7 @@
 #include "kinegraph/geometry/distance/collision_body.h"
 #include "kinegraph/math/pose.h"
 
-namespace kinegraph {
+namespace kinegraph::inline collision_internal {
 
 /// The motion of a convex body relative to solid cells, between two times. Local coordinates of the cells, m.
 struct MotionAmongCells {
@@ -34,4 +34,4 @@ struct CellVerdict {
 /// normals between the body and the cells that were measured before; one of them excludes most of a surface.
 CellVerdict separateFromCells(const MotionAmongCells& motion, double margin);
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline collision_internal

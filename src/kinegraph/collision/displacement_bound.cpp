@@ -5,7 +5,7 @@
 #include <limits>
 #include <numbers>
 
-namespace kinegraph {
+namespace kinegraph::inline collision_internal {
 
 namespace {
 
@@ -238,4 +238,4 @@ double displacementBound(const State& state, const VectorXd& change, const Vecto
   return most;
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline collision_internal

@@ -6,7 +6,7 @@
 #include "kinegraph/geometry/distance/collision_body.h"
 #include "kinegraph/kinematics/state.h"
 
-namespace kinegraph {
+namespace kinegraph::inline collision_internal {
 
 /// Upper bounds of the displacement of links and of the bodies on them. All of them sum, over the joints between a
 /// point and the world (or another link), the largest rate at which a joint moves a point that it carries: a joint that
@@ -117,4 +117,4 @@ class DeviationBound {
 /// given by quaternions or circles move a body, this is no proof, and 5 % are added.
 double displacementBound(const State& state, const VectorXd& change, const VectorXd& spread);
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline collision_internal

@@ -3,7 +3,7 @@
 
 #include "kinegraph/collision/edge_engine.h"
 
-namespace kinegraph {
+namespace kinegraph::inline collision_internal {
 
 void EdgeEngine::findApproaches(const double* from, const double* to, double most, std::vector<MotionContact>& found) {
   beginCheck();
@@ -47,4 +47,4 @@ void EdgeEngine::addApproaches(const Candidate& candidate, double most, std::vec
   }
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline collision_internal

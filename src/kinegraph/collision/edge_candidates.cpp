@@ -7,7 +7,7 @@
 #include "kinegraph/geometry/distance/cell_field.h"
 #include "kinegraph/geometry/distance/grid_field.h"
 
-namespace kinegraph {
+namespace kinegraph::inline collision_internal {
 
 /// Collects the pairs of groups within the margin whose bodies may be closer than `most` in a sample. Returns early
 /// with a pair whose inner balls are closer than `near` in a sample.
@@ -79,4 +79,4 @@ bool EdgeEngine::addNearFixed(double margin, double most, double near) {
   return false;
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline collision_internal

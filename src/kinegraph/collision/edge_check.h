@@ -6,6 +6,16 @@
 #include <span>
 #include <vector>
 
+namespace kinegraph::inline collision_internal {
+class EdgeEngine;
+class MotionChecker;
+}
+
+namespace kinegraph::inline kinematics_internal {
+struct KinematicModel;
+class State;
+}
+
 namespace kinegraph {
 
 /// The first contact of an edge: a pair that comes too close, or a dof that leaves its limits.
@@ -15,8 +25,6 @@ struct MotionContact {
   double distance = 0.;  ///< of the pair at `time`, m; for a limit: the distance to it, m or rad
   int dof = -1;          ///< for a limit: the entry of q; else -1
 };
-
-struct KinematicModel;
 
 /// Tolerance of joint limits, rad or m. Files round: single precision by 1e-7, and 3.14159 for pi by 3e-6.
 inline constexpr double kLimitTolerance = 1e-5;
@@ -36,10 +44,6 @@ std::optional<LimitPassed> firstLimitPassed(const KinematicModel& model, const d
 
 /// The frame of the joint of a dof; -1 if there is none.
 int frameOfDof(const KinematicModel& model, int dof);
-
-class EdgeEngine;
-class MotionChecker;
-class State;
 
 /// Checks configurations and edges of one scene for collisions. An edge is the straight motion q(s) = (1 - s) from + s
 /// to, 0 <= s <= 1. It is free if all pairs that joints move apart (KinematicModel::movingPairs) keep the margin,

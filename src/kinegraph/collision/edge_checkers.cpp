@@ -4,7 +4,7 @@
 
 #include "kinegraph/kinematics/state.h"
 
-namespace kinegraph {
+namespace kinegraph::inline collision_internal {
 
 std::unique_ptr<EdgeChecker> EdgeCheckers::take(const State& scene, double margin, double tolerance) {
   std::unique_ptr<EdgeChecker> checker;
@@ -30,4 +30,4 @@ void EdgeCheckers::giveBack(std::unique_ptr<EdgeChecker> checker) {
   free_.push_back(std::move(checker));
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline collision_internal

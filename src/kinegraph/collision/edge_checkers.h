@@ -5,7 +5,7 @@
 #include "kinegraph/collision/edge_check.h"
 #include "kinegraph/kinematics/state.h"
 
-namespace kinegraph {
+namespace kinegraph::inline collision_internal {
 
 /// A pool of EdgeCheckers of one scene: constructing one takes as long as a dozen checks. Threads may share the pool; a
 /// copy is empty.
@@ -26,4 +26,4 @@ class EdgeCheckers {
   std::vector<std::unique_ptr<EdgeChecker>> free_;
 };
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline collision_internal

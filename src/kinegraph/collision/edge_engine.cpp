@@ -5,7 +5,7 @@
 
 #include "kinegraph/geometry/distance/cell_distance.h"
 
-namespace kinegraph {
+namespace kinegraph::inline collision_internal {
 
 namespace {
 
@@ -446,4 +446,4 @@ void EdgeEngine::lower(const Candidate& candidate, Normal& normal, const Displac
   lower(candidate, normal, rates, middle, b, depth + 1, least);
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline collision_internal

@@ -11,7 +11,7 @@
 #include "kinegraph/collision/placed_samples.h"
 #include "kinegraph/geometry/distance/separation.h"
 
-namespace kinegraph {
+namespace kinegraph::inline collision_internal {
 
 /// The collision checks of EdgeChecker.
 ///
@@ -155,4 +155,4 @@ class EdgeEngine {
   int stamp_ = 1, suspect_ = -1;
 };
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline collision_internal

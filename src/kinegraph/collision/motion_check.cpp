@@ -6,7 +6,7 @@
 
 #include "kinegraph/collision/edge_engine.h"
 
-namespace kinegraph {
+namespace kinegraph::inline collision_internal {
 
 MotionChecker::MotionChecker(const State& scene)
     : state_(scene),
@@ -212,4 +212,4 @@ std::optional<MotionContact> MotionChecker::advance(const Limits& limits) {
   return std::nullopt;
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline collision_internal

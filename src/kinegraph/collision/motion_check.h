@@ -6,9 +6,9 @@
 #include "kinegraph/collision/displacement_bound.h"
 #include "kinegraph/collision/edge_check.h"
 #include "kinegraph/collision/near_pairs.h"
-#include "kinegraph/geometry/distance/box_tree.h"
+#include "kinegraph/geometry/distance/closed_form/box_tree.h"
 
-namespace kinegraph {
+namespace kinegraph::inline collision_internal {
 
 class EdgeEngine;
 
@@ -75,4 +75,4 @@ class MotionChecker {
   std::vector<Due> due_;       ///< a heap, the earliest first
 };
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline collision_internal

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace kinegraph {
+namespace kinegraph::inline collision_internal {
 
 NearPairSearch::NearPairSearch(std::shared_ptr<const KinematicModel> model, const std::vector<int>& frames)
     : model_(std::move(model)), frames_(frames), link_pose_(model_->links.size()), link_moved_(model_->links.size()) {
@@ -161,4 +161,4 @@ bool NearPairSearch::apart(double margin) {
   return true;
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline collision_internal

@@ -3,11 +3,11 @@
 #include <memory>
 #include <vector>
 
-#include "kinegraph/geometry/distance/box_tree.h"
+#include "kinegraph/geometry/distance/closed_form/box_tree.h"
 #include "kinegraph/geometry/distance/proximity.h"
 #include "kinegraph/kinematics/state.h"
 
-namespace kinegraph {
+namespace kinegraph::inline collision_internal {
 
 /// Finds the near pairs among many moving bodies, incrementally.
 ///
@@ -84,4 +84,4 @@ class NearPairSearch {
   long measured_ = 0;
 };
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline collision_internal

@@ -1,6 +1,6 @@
 #include "kinegraph/collision/near_pairs.h"
 
-namespace kinegraph {
+namespace kinegraph::inline collision_internal {
 
 BodyPairs::BodyPairs(const KinematicModel& model, const std::vector<std::pair<int, int>>& frame_pairs) {
   static const std::shared_ptr<const CollisionBody> point = pointBody();
@@ -69,4 +69,4 @@ bool NearPairs::apart(double margin) {
   return true;
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline collision_internal

@@ -9,7 +9,7 @@
 #include "kinegraph/collision/near_pair_search.h"
 #include "kinegraph/geometry/distance/proximity.h"
 
-namespace kinegraph {
+namespace kinegraph::inline collision_internal {
 
 /// Pairs of frames with shapes, with every body once.
 struct BodyPairs {
@@ -139,4 +139,4 @@ class NearPairs {
   int suspect_ = -1;
 };
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline collision_internal

@@ -2,7 +2,7 @@
 
 #include "kinegraph/kinematics/lane_storage.h"
 
-namespace kinegraph {
+namespace kinegraph::inline collision_internal {
 
 namespace {
 
@@ -180,4 +180,4 @@ PlacedSamples::Lane PlacedSamples::gaps(int body_a, int body_b, const Vector3d& 
   return Eigen::Map<const Lane>(gaps) - (radius(body_a) + radius(body_b));
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline collision_internal

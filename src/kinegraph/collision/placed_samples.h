@@ -9,7 +9,7 @@
 #include "kinegraph/geometry/distance/separation.h"
 #include "kinegraph/kinematics/link_bodies.h"
 
-namespace kinegraph {
+namespace kinegraph::inline collision_internal {
 
 /// The bodies of a scene in several configurations, side by side.
 class PlacedSamples {
@@ -101,4 +101,4 @@ class PlacedSamples {
   int count_ = 0, groups_ = 0, stamp_ = 0;
 };
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline collision_internal

@@ -2,7 +2,7 @@
 
 #include "kinegraph/math/lane_widths.h"
 
-namespace kinegraph {
+namespace kinegraph::inline collision_internal {
 
 const SampleKernel& sampleKernel(int width) {
   width = checkedLaneWidth(width);
@@ -13,4 +13,4 @@ const SampleKernel& sampleKernel(int width) {
   return lanes::kSampleKernelBase;
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline collision_internal

@@ -4,7 +4,7 @@
 
 #include "kinegraph/kinematics/lane_model.h"
 
-namespace kinegraph {
+namespace kinegraph::inline collision_internal {
 
 // Computations of PlacedSamples for eight configurations side by side. Numbers are in rows of lanes, one lane per
 // configuration. Lanes are in groups of `width`, so that a number is at [lane / width][row][lane % width]; `groups` is
@@ -86,9 +86,9 @@ struct SampleKernel {
 /// Returns the kernel for a `width` of laneWidths(); 0: the widest.
 const SampleKernel& sampleKernel(int width = 0);
 
-namespace lanes {
+}  // namespace kinegraph::inline collision_internal
+
+namespace kinegraph::lanes {
 // One per instruction set.
 extern const SampleKernel kSampleKernelBase, kSampleKernelAvx2, kSampleKernelAvx512;
-}  // namespace lanes
-
-}  // namespace kinegraph
+}  // namespace kinegraph::lanes

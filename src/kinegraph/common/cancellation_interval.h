@@ -2,9 +2,9 @@
 
 #include <chrono>
 
-namespace kinegraph {
+namespace kinegraph::inline common_internal {
 
 /// How often a waiting thread asks its CancellationToken.
 inline constexpr std::chrono::milliseconds kCancellationInterval{20};
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline common_internal

@@ -7,7 +7,7 @@
 #include "kinegraph/common/errors.h"
 #include "kinegraph/common/text.h"
 
-namespace kinegraph {
+namespace kinegraph::inline common_internal {
 
 namespace {
 
@@ -48,4 +48,4 @@ void* DynamicLibrary::address(const char* symbol) const {
   return found;
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline common_internal

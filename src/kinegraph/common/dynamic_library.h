@@ -2,7 +2,7 @@
 
 #include <string>
 
-namespace kinegraph {
+namespace kinegraph::inline common_internal {
 
 /// Expand a list of functions of a library, `#define LIST(X) X(first) X(second)`: the first to members of a struct, one
 /// function pointer per function; the second to statements that load the members of such a struct `functions` from a
@@ -32,4 +32,4 @@ class DynamicLibrary {
   void* handle_;
 };
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline common_internal

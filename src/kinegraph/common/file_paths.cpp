@@ -12,7 +12,7 @@
 #include "kinegraph/common/packages.h"
 #include "kinegraph/common/text.h"
 
-namespace kinegraph {
+namespace kinegraph::inline common_internal {
 
 namespace fs = std::filesystem;
 
@@ -227,4 +227,4 @@ std::string lowerExtension(const std::string& path) {
   return extension;
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline common_internal

@@ -2,7 +2,7 @@
 
 #include <string>
 
-namespace kinegraph {
+namespace kinegraph::inline common_internal {
 
 struct LocatedFile {
   std::string path;        ///< absolute; of a file that may be missing, or empty for a package that is not found
@@ -35,4 +35,4 @@ std::string shippedFilesHint(const std::string& path);
 /// Returns the extension of a file name with the dot, in lower case: ".urdf".
 std::string lowerExtension(const std::string& path);
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline common_internal

@@ -1,6 +1,6 @@
 #include "kinegraph/common/file_stamp.h"
 
-namespace kinegraph {
+namespace kinegraph::inline common_internal {
 
 FileStamp stampOf(const std::string& file) {
   FileStamp stamp;
@@ -12,4 +12,4 @@ FileStamp stampOf(const std::string& file) {
   return stamp;
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline common_internal

@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <string>
 
-namespace kinegraph {
+namespace kinegraph::inline common_internal {
 
 /// Time of the last write and size of a file; a missing file has neither. Equal stamps: the file is likely unchanged.
 struct FileStamp {
@@ -16,4 +16,4 @@ struct FileStamp {
 /// Returns the present stamp of a file.
 FileStamp stampOf(const std::string& file);
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline common_internal

@@ -6,7 +6,7 @@
 
 #include "kinegraph/common/text.h"
 
-namespace kinegraph {
+namespace kinegraph::inline common_internal {
 
 namespace {
 
@@ -40,4 +40,4 @@ std::string askForMeters(double length) {
   return cat("did you mean meters? ", length, " mm are ", length / 1000., " m");
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline common_internal

@@ -3,7 +3,7 @@
 #include <span>
 #include <string>
 
-namespace kinegraph {
+namespace kinegraph::inline common_internal {
 
 /// Guesses whether an angle that should be in rad is in degrees: a multiple of .5 from `least` up to two turns of
 /// degrees. Computed angles in rad are no such multiples.
@@ -22,4 +22,4 @@ std::string askForRadians(double angle);
 /// "did you mean meters? 400 mm are 0.4 m"
 std::string askForMeters(double length);
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline common_internal

@@ -6,7 +6,7 @@
 #include <mutex>
 #include <utility>
 
-namespace kinegraph {
+namespace kinegraph::inline common_internal {
 
 namespace {
 
@@ -64,4 +64,4 @@ bool InterruptMonitor::wasInterrupted() {
   return std::exchange(seen_, now) != now;
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline common_internal

@@ -1,6 +1,6 @@
 #pragma once
 
-namespace kinegraph {
+namespace kinegraph::inline common_internal {
 
 /// Reports Ctrl-C (SIGINT) to threads that cannot wait for the program's own handler, which runs as before.
 /// Signals are counted as long as one monitor exists. If the program has no handler, Ctrl-C ends the program and
@@ -18,4 +18,4 @@ class InterruptMonitor {
   unsigned seen_;
 };
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline common_internal

@@ -2,7 +2,7 @@
 
 #include <boost/json/src.hpp>  // the implementation of the library
 
-namespace kinegraph {
+namespace kinegraph::inline common_internal {
 
 boost::json::value jsonOf(double number) {
   constexpr double kExact = 9007199254740992.;  // 2^53
@@ -11,4 +11,4 @@ boost::json::value jsonOf(double number) {
   return is_whole ? boost::json::value(std::int64_t(number)) : boost::json::value(number);
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline common_internal

@@ -10,7 +10,7 @@
 
 #include "kinegraph/common/utf8.h"
 
-namespace kinegraph {
+namespace kinegraph::inline common_internal {
 
 // Values of Boost.JSON for browsers and glTF files. Include only in sources: Boost.JSON compiles slowly.
 
@@ -39,4 +39,4 @@ boost::json::value jsonOf(const std::optional<T>& value) {
   return value ? jsonOf(*value) : boost::json::value();
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline common_internal

@@ -11,7 +11,7 @@
 
 #include "kinegraph/common/cancellation_interval.h"
 
-namespace kinegraph {
+namespace kinegraph::inline common_internal {
 
 namespace {
 
@@ -112,4 +112,4 @@ void orderedParallelFor(int count, int threads, const Job& job, const Take& take
   }
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline common_internal

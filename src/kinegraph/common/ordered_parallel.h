@@ -4,7 +4,7 @@
 
 #include "kinegraph/common/cancellation.h"
 
-namespace kinegraph {
+namespace kinegraph::inline common_internal {
 
 /// Runs jobs 0 .. count-1 in parallel and passes their results on in this order, so that the outcome does not depend on
 /// the number of threads.
@@ -18,4 +18,4 @@ void orderedParallelFor(int count, int threads,
                         const std::function<void(int job, const CancellationToken& cancellation)>& job,
                         const std::function<bool(int job)>& take, const CancellationToken& cancellation = {});
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline common_internal

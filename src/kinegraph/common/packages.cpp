@@ -10,7 +10,7 @@
 #include <sstream>
 #include <vector>
 
-namespace kinegraph {
+namespace kinegraph::inline common_internal {
 
 namespace {
 
@@ -125,4 +125,4 @@ bool visitPackageFolders(const std::string& name, const std::string& folder,
   return false;
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline common_internal

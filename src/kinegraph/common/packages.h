@@ -3,7 +3,7 @@
 #include <functional>
 #include <string>
 
-namespace kinegraph {
+namespace kinegraph::inline common_internal {
 
 /// Visits the folders that may be the ROS package `name`, in the order of the search, until `visit` returns true:
 ///
@@ -20,4 +20,4 @@ bool visitPackageFolders(const std::string& name, const std::string& folder,
 /// Returns the <name> in the package.xml of a folder, or "".
 std::string packageNameOf(const std::string& folder);
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline common_internal

@@ -11,7 +11,7 @@
 
 #include "kinegraph/common/cancellation_interval.h"
 
-namespace kinegraph {
+namespace kinegraph::inline common_internal {
 
 namespace {
 
@@ -107,4 +107,4 @@ void parallelFor(int count, int part, int threads, const std::function<void(int,
   Parts(count, part, work, cancellation).run(threads);
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline common_internal

@@ -4,7 +4,7 @@
 
 #include "kinegraph/common/cancellation.h"
 
-namespace kinegraph {
+namespace kinegraph::inline common_internal {
 
 /// Calls work(worker, from, to) for consecutive parts of 0 .. count-1 of `part` indices each, in parallel.
 ///
@@ -15,4 +15,4 @@ namespace kinegraph {
 void parallelFor(int count, int part, int threads, const std::function<void(int worker, int from, int to)>& work,
                  const CancellationToken& cancellation = {});
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline common_internal

@@ -11,7 +11,7 @@
 
 #include "kinegraph/common/cancellation_interval.h"
 
-namespace kinegraph {
+namespace kinegraph::inline common_internal {
 
 namespace {
 
@@ -203,4 +203,4 @@ void SpeculativeExecutor::Task::begin(Priority priority) const { pool_->begin(it
 
 void SpeculativeExecutor::Task::finish() const { pool_->finish(item_); }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline common_internal

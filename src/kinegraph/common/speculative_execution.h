@@ -7,7 +7,7 @@
 
 #include "kinegraph/common/cancellation.h"
 
-namespace kinegraph {
+namespace kinegraph::inline common_internal {
 
 /// The priority of speculative work. Work of a higher priority is done first.
 enum class Priority { high, normal, low };
@@ -106,4 +106,4 @@ class SpeculativeExecutor::Speculative {
 template <class T>
 using Speculative = SpeculativeExecutor::Speculative<T>;
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline common_internal

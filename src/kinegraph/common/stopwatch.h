@@ -2,7 +2,7 @@
 
 #include <chrono>
 
-namespace kinegraph {
+namespace kinegraph::inline common_internal {
 
 /// Measures elapsed time with the steady clock, from its construction or the last `restart` on.
 class Stopwatch {
@@ -15,4 +15,4 @@ class Stopwatch {
   Clock::time_point start_ = Clock::now();
 };
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline common_internal

@@ -2,7 +2,7 @@
 
 #include <cstdint>
 
-namespace kinegraph {
+namespace kinegraph::inline common_internal {
 
 namespace {
 
@@ -102,4 +102,4 @@ std::string validUtf8(std::string_view text, std::size_t* replaced, std::string_
   return valid;
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline common_internal

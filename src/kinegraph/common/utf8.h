@@ -3,7 +3,7 @@
 #include <string>
 #include <string_view>
 
-namespace kinegraph {
+namespace kinegraph::inline common_internal {
 
 /// Returns `text` with a mark for each byte that is not part of a UTF-8 character; `replaced` counts these bytes.
 std::string validUtf8(std::string_view text, std::size_t* replaced = nullptr, std::string_view mark = "?");
@@ -13,4 +13,4 @@ std::string validUtf8(std::string_view text, std::size_t* replaced = nullptr, st
 /// are.
 std::string toUtf8(std::string_view bytes);
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline common_internal

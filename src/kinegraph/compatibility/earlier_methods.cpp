@@ -8,7 +8,7 @@
 #include "kinegraph/common/text.h"
 #include "kinegraph/scene/tree/scene_tree.h"
 
-namespace kinegraph {
+namespace kinegraph::inline compatibility_internal {
 
 void selectJointsByTag(Config& config, const std::vector<std::string>& attributes, bool not_those) {
   std::vector<std::string> names;
@@ -71,4 +71,4 @@ VectorXd stepDynamics(Config& config, const VectorXd& velocity, const VectorXd& 
   return velocity + tau / 6. * (a1 + 2. * a2 + 2. * a3 + a4);
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline compatibility_internal

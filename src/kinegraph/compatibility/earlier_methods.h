@@ -5,7 +5,7 @@
 
 #include "kinegraph/scene/config.h"
 
-namespace kinegraph {
+namespace kinegraph::inline compatibility_internal {
 
 // Methods of earlier releases, kept for existing scripts.
 
@@ -24,4 +24,4 @@ void makeObjectsFree(Config& config, const std::vector<std::string>& names);
 VectorXd stepDynamics(Config& config, const VectorXd& velocity, const VectorXd& u, double tau, double noise,
                       bool gravity, Rng& rng);
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline compatibility_internal

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace kinegraph {
+namespace kinegraph::inline control_internal {
 
 namespace {
 
@@ -24,4 +24,4 @@ void ChatterDamping::add(const VectorXd& change) {
   }
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline control_internal

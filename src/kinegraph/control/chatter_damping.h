@@ -2,7 +2,7 @@
 
 #include "kinegraph/math/pose.h"
 
-namespace kinegraph {
+namespace kinegraph::inline control_internal {
 
 /// How far a task is from what steps attain.
 struct TaskCurvature {
@@ -37,4 +37,4 @@ class ChatterDamping {
   double moved_ = 0.;
 };
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline control_internal

@@ -8,14 +8,25 @@
 #include "kinegraph/features/feature_source.h"
 #include "kinegraph/scene/config.h"
 
-namespace kinegraph {
-
-class ChatterDamping;
-class DualActiveSet;
+namespace kinegraph::inline collision_internal {
 class PlacedBodies;
-class State;
 struct BodyPairs;
+}
+
+namespace kinegraph::inline control_internal {
+class ChatterDamping;
+}
+
+namespace kinegraph::inline kinematics_internal {
+class State;
 struct KinematicModel;
+}
+
+namespace kinegraph::inline solvers_internal {
+class DualActiveSet;
+}
+
+namespace kinegraph {
 
 struct DiffIkOptions {
   VectorXd velocity;               ///< (n,), rad/s or m/s: limits; empty: the model's; infinity for none

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace kinegraph {
+namespace kinegraph::inline control_internal {
 
 HorizonNlp::HorizonNlp(std::shared_ptr<Nlp> problem)
     : problem_(std::move(problem)),
@@ -29,4 +29,4 @@ void HorizonNlp::evaluate(const VectorXd& x, VectorXd& phi, Jacobian* J) {
   }
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline control_internal

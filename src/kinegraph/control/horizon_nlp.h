@@ -5,7 +5,7 @@
 
 #include "kinegraph/nlp/nlp.h"
 
-namespace kinegraph {
+namespace kinegraph::inline control_internal {
 
 /// A motion problem with a moving present: past residuals and variables are removed, and offsets of the residuals move
 /// their targets. Offsets and bounds may change between solves.
@@ -43,4 +43,4 @@ class HorizonNlp final : public Nlp {
   VectorXd offset_;
 };
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline control_internal

@@ -14,6 +14,18 @@
 #include "kinegraph/solvers/methods/augmented_lagrangian.h"
 #include "kinegraph/trajectories/trajectory.h"
 
+namespace kinegraph::inline control_internal {
+class HorizonNlp;
+}
+
+namespace kinegraph::inline kinematics_internal {
+struct Parameters;
+}
+
+namespace kinegraph::inline komo_internal {
+struct PathComponent;
+}
+
 namespace kinegraph {
 
 /// The motion that a call of Mpc computed, from the time of the call on: it passes through the points of the slices and
@@ -50,10 +62,6 @@ class HorizonTrajectory final : public Trajectory {
   MatrixXd q_, velocity_;             ///< (n, K)
   VectorXd largest_, largest_first_;  ///< velocities of an interval, and of the first one
 };
-
-class HorizonNlp;
-struct Parameters;
-struct PathComponent;
 
 struct MpcOptions {
   int evaluations = 50;         ///< budget of a call, at least 2: one step

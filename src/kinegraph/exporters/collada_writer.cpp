@@ -4,7 +4,7 @@
 #include "kinegraph/common/text.h"
 #include "kinegraph/exporters/writers.h"
 #include "kinegraph/geometry/shapes/tessellation.h"
-#include "kinegraph/parsers/xml.h"
+#include "kinegraph/parsers/xml/xml.h"
 #include "kinegraph/scene/tree/scene_tree.h"
 
 namespace kinegraph {

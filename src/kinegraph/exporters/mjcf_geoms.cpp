@@ -8,9 +8,9 @@
 #include "kinegraph/exporters/stl_writer.h"
 #include "kinegraph/geometry/shapes/shape_types.h"
 #include "kinegraph/geometry/shapes/tessellation.h"
-#include "kinegraph/parsers/xml.h"
+#include "kinegraph/parsers/xml/xml.h"
 
-namespace kinegraph {
+namespace kinegraph::inline exporters_internal {
 
 namespace fs = std::filesystem;
 
@@ -135,4 +135,4 @@ std::string MjcfGeoms::meshSource(const FrameData& frame) {
   return cat("vertex=\"", mjcfNumbers(vertices), "\" face=\"", mjcfNumbers(faces), "\"");
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline exporters_internal

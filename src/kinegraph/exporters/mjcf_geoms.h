@@ -6,7 +6,7 @@
 
 #include "kinegraph/exporters/writers.h"
 
-namespace kinegraph {
+namespace kinegraph::inline exporters_internal {
 
 /// Writes shapes as geoms of an MJCF text, and their meshes as its assets.
 class MjcfGeoms {
@@ -37,4 +37,4 @@ std::string mjcfPose(const Pose& pose);
 std::string mjcfNumbers(const std::vector<double>& numbers);
 std::string mjcfVector(const Vector3d& v);
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline exporters_internal

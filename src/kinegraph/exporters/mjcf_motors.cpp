@@ -7,10 +7,10 @@
 
 #include "kinegraph/common/text.h"
 #include "kinegraph/exporters/mjcf_geoms.h"
-#include "kinegraph/parsers/xml.h"
+#include "kinegraph/parsers/xml/xml.h"
 #include "kinegraph/scene/tree/scene_tree.h"
 
-namespace kinegraph {
+namespace kinegraph::inline exporters_internal {
 
 namespace {
 
@@ -190,4 +190,4 @@ std::string MjcfMotors::options() {
 
 std::string MjcfMotors::coupling() { return " solref=\"0.005 1\" solimp=\"0.95 0.99 0.001 0.5 2\""; }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline exporters_internal

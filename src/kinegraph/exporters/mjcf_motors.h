@@ -6,7 +6,7 @@
 
 #include "kinegraph/scene/config.h"
 
-namespace kinegraph {
+namespace kinegraph::inline exporters_internal {
 
 /// The motors of a scene as the elements of an MJCF text, with the gains of the simulation:
 ///
@@ -66,4 +66,4 @@ Config withFreeObjects(const Config& config);
 /// Returns the joints of hands (inactive, with one dof, and followed by others) and their followers.
 std::set<const FrameData*> fingerJoints(const Config& config);
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline exporters_internal

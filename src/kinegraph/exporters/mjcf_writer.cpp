@@ -12,7 +12,7 @@
 #include "kinegraph/exporters/mjcf_motors.h"
 #include "kinegraph/exporters/srdf_writer.h"
 #include "kinegraph/geometry/shapes/shape_kinds.h"
-#include "kinegraph/parsers/xml.h"
+#include "kinegraph/parsers/xml/xml.h"
 #include "kinegraph/scene/tree/scene_tree.h"
 
 namespace kinegraph {

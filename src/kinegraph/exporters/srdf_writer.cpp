@@ -5,10 +5,10 @@
 
 #include "kinegraph/common/text.h"
 #include "kinegraph/kinematics/contact_rules.h"
-#include "kinegraph/parsers/xml.h"
+#include "kinegraph/parsers/xml/xml.h"
 #include "kinegraph/scene/tree/scene_tree.h"
 
-namespace kinegraph {
+namespace kinegraph::inline exporters_internal {
 
 namespace {
 
@@ -152,4 +152,4 @@ std::string joinFirst(const std::vector<std::string>& items, std::size_t count) 
   return cat(join({items.begin(), items.begin() + long(count)}), " and ", items.size() - count, " more");
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline exporters_internal

@@ -6,7 +6,7 @@
 
 #include "kinegraph/scene/config.h"
 
-namespace kinegraph {
+namespace kinegraph::inline exporters_internal {
 
 /// Names of frames as links and joints of a URDF text.
 struct UrdfNames {
@@ -22,4 +22,4 @@ std::string srdfText(const Config& config, const std::string& robot_name, const 
 /// Joins the first items of a list, and adds the number of the others.
 std::string joinFirst(const std::vector<std::string>& items, std::size_t count = 8);
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline exporters_internal

@@ -7,7 +7,7 @@
 #include "kinegraph/common/errors.h"
 #include "kinegraph/common/text.h"
 
-namespace kinegraph {
+namespace kinegraph::inline exporters_internal {
 
 namespace {
 
@@ -43,4 +43,4 @@ void writeStl(const Mesh& mesh, const std::string& path) {
   if (!stream) throw FileError(cat("mesh file '", path, "' cannot be written"));
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline exporters_internal

@@ -12,8 +12,8 @@
 #include "kinegraph/geometry/shapes/shape_kinds.h"
 #include "kinegraph/geometry/shapes/shape_types.h"
 #include "kinegraph/geometry/shapes/tessellation.h"
-#include "kinegraph/parsers/urdf_model.h"
-#include "kinegraph/parsers/xml.h"
+#include "kinegraph/parsers/urdf/urdf_model.h"
+#include "kinegraph/parsers/xml/xml.h"
 #include "kinegraph/scene/tree/scene_tree.h"
 
 namespace kinegraph {

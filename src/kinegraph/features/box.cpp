@@ -1,6 +1,6 @@
 #include "kinegraph/features/box.h"
 
-namespace kinegraph {
+namespace kinegraph::inline features_internal {
 
 BoxRegion::BoxRegion(Kind kind, int object, int box, const Geometry& geometry)
     : dims_(kind == Kind::above ? 2 : 3), object_(object), box_(box) {
@@ -38,4 +38,4 @@ void StandingAbove::eval(std::span<const State* const> states, double, Eigen::Re
   state.addJacobian(support_, p_WB, -up, none, *J);
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline features_internal

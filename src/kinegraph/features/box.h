@@ -2,7 +2,7 @@
 
 #include "kinegraph/features/feature.h"
 
-namespace kinegraph {
+namespace kinegraph::inline features_internal {
 
 /// Position of an object's origin relative to a box, p = p_BA (m):
 ///
@@ -36,4 +36,4 @@ class StandingAbove final : public Feature {
   double gap_;
 };
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline features_internal

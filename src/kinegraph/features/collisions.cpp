@@ -5,7 +5,7 @@
 
 #include "kinegraph/features/distance.h"
 
-namespace kinegraph {
+namespace kinegraph::inline features_internal {
 
 namespace {
 
@@ -127,4 +127,4 @@ void PairCollisions::eval(std::span<const State* const> states, double, Eigen::R
   });
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline features_internal

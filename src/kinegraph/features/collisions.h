@@ -8,7 +8,7 @@
 #include "kinegraph/collision/near_pairs.h"
 #include "kinegraph/features/feature.h"
 
-namespace kinegraph {
+namespace kinegraph::inline features_internal {
 
 /// The collidable pairs that a feature considers: all pairs of the scene, or only pairs that joints move relative to
 /// each other, since q influences no others.
@@ -95,4 +95,4 @@ class PairCollisions final : public Feature {
   CollisionPairs pairs_;
 };
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline features_internal

@@ -5,7 +5,7 @@
 #include "kinegraph/features/distance.h"
 #include "kinegraph/features/velocity.h"
 
-namespace kinegraph {
+namespace kinegraph::inline features_internal {
 
 namespace {
 
@@ -195,4 +195,4 @@ void PushRadius::eval(std::span<const State* const> states, double tau, Eigen::R
   before.addJacobian(object_, before.position(object_), Matrix3d(-slope), none, J->leftCols(n));
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline features_internal

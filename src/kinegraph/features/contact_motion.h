@@ -2,7 +2,7 @@
 
 #include "kinegraph/features/forces.h"
 
-namespace kinegraph {
+namespace kinegraph::inline features_internal {
 
 /// Component of a contact force that pulls its two bodies together, with the normal n from `from` to `object`, in units
 /// of the force:
@@ -109,4 +109,4 @@ class PushRadius final : public Feature {
   double radius_;
 };
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline features_internal

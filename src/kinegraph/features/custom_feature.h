@@ -8,10 +8,15 @@
 
 #include "kinegraph/math/pose.h"
 
-namespace kinegraph {
-
+namespace kinegraph::inline features_internal {
 class Feature;
+}
+
+namespace kinegraph::inline kinematics_internal {
 class State;
+}
+
+namespace kinegraph {
 
 /// The result of a custom function: y, and optionally its Jacobian dy/dq (rows of y x n).
 struct FeatureValue {

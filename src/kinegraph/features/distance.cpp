@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace kinegraph {
+namespace kinegraph::inline features_internal {
 
 namespace {
 
@@ -136,4 +136,4 @@ void Oppose::eval(std::span<const State* const> states, double tau, Eigen::Ref<V
   state.addJacobian(finger1_, p1, -.02 * D, none, J->bottomRows(3));
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline features_internal

@@ -3,7 +3,7 @@
 #include "kinegraph/features/feature.h"
 #include "kinegraph/geometry/distance/proximity.h"
 
-namespace kinegraph {
+namespace kinegraph::inline features_internal {
 
 /// Negative distance of two shapes: y = -(signed gap), positive in penetration; J = -n^T (Jp_A - Jp_B) at the witness
 /// points. Frames without a shape count as points.
@@ -68,4 +68,4 @@ class Oppose final : public Feature {
 /// the frames count, since a common motion does not change their distance.
 void addDistanceGradient(const State& state, int a, int b, const Proximity& near, double factor, JacobianRows& J);
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline features_internal

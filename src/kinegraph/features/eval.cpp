@@ -7,8 +7,9 @@
 
 namespace kinegraph {
 
-Residual makeResidual(const State& scene, const FeatureSource& feature, const std::vector<std::string>& frames,
-                      const Scale& scale, const Target& target, int order) {
+Residual features_internal::makeResidual(const State& scene, const FeatureSource& feature,
+                                         const std::vector<std::string>& frames, const Scale& scale,
+                                         const Target& target, int order) {
   std::vector<int> ids;
   ids.reserve(frames.size());
   for (const std::string& name : frames) ids.push_back(frameId(scene.model(), name, feature.name()));
@@ -25,7 +26,7 @@ Evaluation eval(const Config& config, const FeatureSource& feature, const std::v
   return out;
 }
 
-void eval(const Config& config, Residual& residual, Eigen::Ref<VectorXd> y, JacobianRows J) {
+void features_internal::eval(const Config& config, Residual& residual, Eigen::Ref<VectorXd> y, JacobianRows J) {
   if (residual.order() > 0) {
     throw ValueError(cat(residual.name(), " of order ", residual.order(), " needs ", residual.order() + 1,
                          " consecutive configurations; evaluate it in a KOMO"));

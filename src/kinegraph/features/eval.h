@@ -10,6 +10,22 @@
 #include "kinegraph/math/eigen.h"
 #include "kinegraph/scene/config.h"
 
+namespace kinegraph::inline collision_internal {
+class EdgeCheckers;
+}
+
+namespace kinegraph::inline features_internal {
+class Residual;
+}
+
+namespace kinegraph::inline geometry_internal {
+struct Proximity;
+}
+
+namespace kinegraph::inline kinematics_internal {
+class State;
+}
+
 namespace kinegraph {
 
 /// A feature's value and its Jacobian with respect to the configuration's q.
@@ -21,11 +37,6 @@ struct Evaluation {
 /// Evaluates a feature at the present q. Throws ValueError for features that need several configurations.
 Evaluation eval(const Config& config, const FeatureSource& feature, const std::vector<std::string>& frames,
                 const Scale& scale = {}, const Target& target = {}, int order = -1);
-
-class EdgeCheckers;
-class Residual;
-class State;
-struct Proximity;
 
 /// One configuration per row: its joint vector, or values computed from it.
 using RowMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;

@@ -6,7 +6,7 @@
 #include "kinegraph/features/feature.h"
 #include "kinegraph/kinematics/row_formulas.h"
 
-namespace kinegraph {
+namespace kinegraph::inline features_internal {
 
 namespace {
 
@@ -46,4 +46,4 @@ void evalFormula(const Formula& formula, const State& state, int a, int b, Eigen
 
 }  // namespace
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline features_internal

@@ -6,7 +6,7 @@
 #include "kinegraph/kinematics/lane_kinematics.h"
 #include "kinegraph/kinematics/state.h"
 
-namespace kinegraph {
+namespace kinegraph::inline features_internal {
 
 /// A differentiable function y(q) of configurations, with J = dy/dq. Evaluation is const, so threads may share a
 /// feature.
@@ -60,4 +60,4 @@ class Feature {
   }
 };
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline features_internal

@@ -12,10 +12,18 @@
 
 #include "kinegraph/math/pose.h"
 
-namespace kinegraph {
-
+namespace kinegraph::inline features_internal {
 class Feature;
+class Feature;
+struct FeatureRecipe;
+}
+
+namespace kinegraph::inline kinematics_internal {
 struct KinematicModel;
+class State;
+}
+
+namespace kinegraph {
 
 /// Names of features. The numbers are those of the Python enum `ry.FS`.
 enum class FeatureSymbol : int {
@@ -146,10 +154,6 @@ std::string featureTable();
 /// Makes the feature of a symbol for the frames with these ids. Throws ValueError for a wrong number of frames, and for
 /// frames that lack a box or joint that the feature needs.
 std::unique_ptr<Feature> makeFeature(FeatureSymbol symbol, const std::vector<int>& frames, const KinematicModel& model);
-
-class Feature;
-class State;
-struct FeatureRecipe;
 
 /// Source of a feature: a symbol of the registry, a recipe, or a custom function that makes it.
 class FeatureSource {

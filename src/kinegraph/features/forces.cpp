@@ -7,7 +7,7 @@
 #include "kinegraph/features/distance.h"
 #include "kinegraph/kinematics/dynamics.h"
 
-namespace kinegraph {
+namespace kinegraph::inline features_internal {
 
 namespace {
 
@@ -278,4 +278,4 @@ void NormalAlignment::eval(std::span<const State* const> states, double tau, Eig
   state.addJacobian(point_, state.position(point_), Factor(Factor::Zero(3, 3)), Factor(-skew(z)), *J);
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline features_internal

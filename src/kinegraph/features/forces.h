@@ -5,7 +5,7 @@
 #include "kinegraph/features/feature.h"
 #include "kinegraph/features/masses.h"
 
-namespace kinegraph {
+namespace kinegraph::inline features_internal {
 
 /// A force between two frames in a trajectory optimization problem. It acts on `object` at the origin of the frame
 /// `point`, and the opposite force acts on `from`. The joint of the auxiliary frame `dofs` holds its magnitude.
@@ -147,4 +147,4 @@ class NormalAlignment final : public Feature {
   double sign_;
 };
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline features_internal

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-namespace kinegraph {
+namespace kinegraph::inline features_internal {
 
 void JointState::eval(std::span<const State* const> states, double, Eigen::Ref<VectorXd> y, JacobianRows* J) const {
   const int* dofs = dofs_.data();
@@ -56,4 +56,4 @@ void QuaternionNorms::eval(std::span<const State* const> states, double, Eigen::
   }
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline features_internal

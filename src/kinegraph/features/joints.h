@@ -4,7 +4,7 @@
 
 #include "kinegraph/features/feature.h"
 
-namespace kinegraph {
+namespace kinegraph::inline features_internal {
 
 /// The dofs with the given indices: y = q_i (rad, m).
 class JointState final : public Feature {
@@ -50,4 +50,4 @@ class QuaternionNorms final : public Feature {
   std::vector<KinematicModel::DofRange> groups_;
 };
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline features_internal

@@ -7,8 +7,10 @@
 #include "kinegraph/features/residual.h"
 
 namespace kinegraph {
-
 class Config;
+}
+
+namespace kinegraph::inline features_internal {
 
 /// Makes the residual of a feature of named frames of a scene. Errors name the feature, the frames and similar names.
 Residual makeResidual(const State& scene, const FeatureSource& feature, const std::vector<std::string>& frames,
@@ -17,4 +19,4 @@ Residual makeResidual(const State& scene, const FeatureSource& feature, const st
 /// Evaluates an existing residual into `y` (rows) and `J` (rows x dofs, filled with zeros).
 void eval(const Config& config, Residual& residual, Eigen::Ref<VectorXd> y, JacobianRows J);
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline features_internal

@@ -4,7 +4,7 @@
 #include "kinegraph/common/text.h"
 #include "kinegraph/kinematics/dynamics.h"
 
-namespace kinegraph {
+namespace kinegraph::inline features_internal {
 
 namespace {
 
@@ -93,4 +93,4 @@ void FreeFlight::eval(std::span<const State* const> states, double tau, Eigen::R
   y.tail<3>() = now - before;
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline features_internal

@@ -5,7 +5,7 @@
 #include "kinegraph/features/feature.h"
 #include "kinegraph/features/velocity.h"
 
-namespace kinegraph {
+namespace kinegraph::inline features_internal {
 
 /// Energy of frames as point masses at their centers of mass c_i, between two configurations (J):
 ///
@@ -77,4 +77,4 @@ class FreeFlight final : public Feature {
   double gravity_;  ///< m/s^2
 };
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline features_internal

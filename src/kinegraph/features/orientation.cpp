@@ -2,7 +2,7 @@
 
 #include "kinegraph/features/eval_formula.h"
 
-namespace kinegraph {
+namespace kinegraph::inline features_internal {
 
 Eigen::Matrix<double, 4, 3> quaternionRates(const Quaterniond& q) {
   Eigen::Matrix<double, 4, 3> E;
@@ -119,4 +119,4 @@ void AxisDifference::eval(std::span<const State* const> states, double, Eigen::R
   evalFormula(lanes::AxisOffsetRows<double>{u, v}, state, a_, b_, y, J);
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline features_internal

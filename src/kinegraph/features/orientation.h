@@ -2,7 +2,7 @@
 
 #include "kinegraph/features/feature.h"
 
-namespace kinegraph {
+namespace kinegraph::inline features_internal {
 
 /// Unit quaternion w x y z of frame A, with dq = E(q) w, E(q) w = (0, w)/2 * q:
 ///     world              y = q_WA                              E(q_WA) Jw_A
@@ -73,4 +73,4 @@ class AxisDifference final : public Feature {
 /// Returns E(q) with dq = E(q) w, for an angular velocity w in the world.
 Eigen::Matrix<double, 4, 3> quaternionRates(const Quaterniond& q);
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline features_internal

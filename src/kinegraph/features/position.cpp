@@ -2,7 +2,7 @@
 
 #include "kinegraph/features/eval_formula.h"
 
-namespace kinegraph {
+namespace kinegraph::inline features_internal {
 
 void Position::eval(std::span<const State* const> states, double, Eigen::Ref<VectorXd> y, JacobianRows* J) const {
   const State& state = *states[0];
@@ -48,4 +48,4 @@ bool Position::addLaneRows(LaneRowList& list) const {
   return true;
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline features_internal

@@ -2,7 +2,7 @@
 
 #include "kinegraph/features/feature.h"
 
-namespace kinegraph {
+namespace kinegraph::inline features_internal {
 
 /// Position of frame A (m):                                            J
 ///
@@ -28,4 +28,4 @@ class Position final : public Feature {
   int a_, b_, rows_;
 };
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline features_internal

@@ -7,7 +7,7 @@
 #include "kinegraph/features/contact_motion.h"
 #include "kinegraph/features/orientation.h"
 
-namespace kinegraph {
+namespace kinegraph::inline features_internal {
 
 namespace {
 
@@ -87,4 +87,4 @@ Made makeFeature(const FeatureRecipe& recipe, const Ids& frames) {
   return maker.make(recipe, frames);
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline features_internal

@@ -7,7 +7,7 @@
 
 #include "kinegraph/features/forces.h"
 
-namespace kinegraph {
+namespace kinegraph::inline features_internal {
 
 /// A feature without a symbol, described by values, so that problems can be stored.
 struct FeatureRecipe {
@@ -24,4 +24,4 @@ const std::vector<std::string>& recipeNames();
 /// NameError for unknown names, with suggestions, and ValueError for a wrong number of frames or a missing force.
 std::unique_ptr<Feature> makeFeature(const FeatureRecipe& recipe, const std::vector<int>& frames);
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline features_internal

@@ -5,7 +5,7 @@
 #include "kinegraph/common/errors.h"
 #include "kinegraph/common/text.h"
 
-namespace kinegraph {
+namespace kinegraph::inline features_internal {
 
 Residual::Residual(std::shared_ptr<const Feature> feature, MatrixXd scale, VectorXd target, int order, std::string name)
     : feature_(std::move(feature)), name_(std::move(name)) {
@@ -166,4 +166,4 @@ void Residual::evalDifference(std::span<const State* const> states, double tau, 
   }
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline features_internal

@@ -5,7 +5,7 @@
 
 #include "kinegraph/features/feature.h"
 
-namespace kinegraph {
+namespace kinegraph::inline features_internal {
 
 /// The residual of a feature y for an optimizer:  scale * (d^k y / dt^k - target).
 ///
@@ -87,4 +87,4 @@ class Residual {
   RowMajor raw_jacobian_;
 };
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline features_internal

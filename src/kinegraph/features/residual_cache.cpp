@@ -3,7 +3,7 @@
 #include "kinegraph/features/eval.h"
 #include "kinegraph/features/make_residual.h"
 
-namespace kinegraph {
+namespace kinegraph::inline features_internal {
 
 const std::shared_ptr<Residual>& ResidualCache::get(const State& scene, FeatureSymbol symbol,
                                                     const std::vector<std::string>& frames, MatrixXd scale,
@@ -25,4 +25,4 @@ const std::shared_ptr<Residual>& ResidualCache::get(const State& scene, FeatureS
   return place.residual;
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline features_internal

@@ -7,7 +7,7 @@
 #include "kinegraph/features/feature_source.h"
 #include "kinegraph/features/residual.h"
 
-namespace kinegraph {
+namespace kinegraph::inline features_internal {
 
 /// Residuals of built-in features from the last few calls, so that a repeated call only costs the evaluation.
 class ResidualCache {
@@ -32,4 +32,4 @@ class ResidualCache {
   std::size_t oldest_ = 0;
 };
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline features_internal

@@ -5,7 +5,7 @@
 
 #include "kinegraph/features/feature.h"
 
-namespace kinegraph {
+namespace kinegraph::inline features_internal {
 
 /// Concatenation of features: a pose is a position and a quaternion.
 class Stacked final : public Feature {
@@ -56,4 +56,4 @@ class Stacked final : public Feature {
   std::vector<std::unique_ptr<Feature>> parts_;
 };
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline features_internal

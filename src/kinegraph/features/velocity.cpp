@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-namespace kinegraph {
+namespace kinegraph::inline features_internal {
 
 namespace {
 
@@ -49,4 +49,4 @@ void AlignWithMotion::eval(std::span<const State* const> states, double, Eigen::
   states[0]->addJacobian(a_, Vector3d::Zero(), none, skew(axis), earlier(*J));
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline features_internal

@@ -2,7 +2,7 @@
 
 #include "kinegraph/features/feature.h"
 
-namespace kinegraph {
+namespace kinegraph::inline features_internal {
 
 /// Angular velocity of a frame between two configurations, in the world (rad/s):
 ///     y = 2 vec(q_t q_{t-1}^-1) / tau      3 rows; 2 sin(angle/2)/tau along the axis
@@ -46,4 +46,4 @@ class AlignWithMotion final : public Feature {
   int axis_, a_, b_;
 };
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline features_internal

@@ -6,7 +6,7 @@
 
 #include "kinegraph/common/text.h"
 
-namespace kinegraph {
+namespace kinegraph::inline gfile_internal {
 
 namespace {
 
@@ -244,4 +244,4 @@ Value Grammar::parseValue() {
   return value;
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline gfile_internal

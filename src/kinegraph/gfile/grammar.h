@@ -6,7 +6,7 @@
 #include "kinegraph/gfile/parser.h"
 #include "kinegraph/gfile/scanner.h"
 
-namespace kinegraph {
+namespace kinegraph::inline gfile_internal {
 
 /// Recursive-descent parser of the .g language and block-style YAML. Braces and indentation may be mixed: a `key:` at
 /// the end of its line opens a block if the next line is indented deeper than the key.
@@ -63,4 +63,4 @@ class Grammar : private Scanner {
   ParseResult result_;
 };
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline gfile_internal

@@ -4,7 +4,7 @@
 #include "kinegraph/gfile/grammar.h"
 #include "kinegraph/gfile/typed_array.h"
 
-namespace kinegraph {
+namespace kinegraph::inline gfile_internal {
 
 /// The elements read from an array: as numbers, as strings, and as values.
 struct Grammar::ArrayParts {
@@ -107,4 +107,4 @@ void Grammar::endRow(ArrayParts& parts, std::size_t opened_at) const {
   parts.row_start = parts.numbers.numbers.size();
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline gfile_internal

@@ -3,7 +3,7 @@
 #include "kinegraph/common/text.h"
 #include "kinegraph/gfile/grammar.h"
 
-namespace kinegraph {
+namespace kinegraph::inline gfile_internal {
 
 /// After `key:` at `key_at`: returns whether the rest of its line is empty and the next nonempty line is indented
 /// deeper.
@@ -120,4 +120,4 @@ bool Grammar::skipDocumentMark() {
   return true;
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline gfile_internal

@@ -5,7 +5,7 @@
 #include "kinegraph/common/text.h"
 #include "kinegraph/gfile/grammar.h"
 
-namespace kinegraph {
+namespace kinegraph::inline gfile_internal {
 
 ParseResult parseAll(std::string_view text, const std::string& file) { return Grammar(text, file).run(); }
 
@@ -60,4 +60,4 @@ std::string excerpt(std::string_view text, const SourcePosition& where) {
   return cat("    ", line, "\n    ", caret, "^");
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline gfile_internal

@@ -6,7 +6,7 @@
 
 #include "kinegraph/gfile/value.h"
 
-namespace kinegraph {
+namespace kinegraph::inline gfile_internal {
 
 /// An error or warning about a text. `message` excludes the position.
 struct Diagnostic {
@@ -39,4 +39,4 @@ Graph parse(std::string_view text, const std::string& file, std::vector<std::str
 ///                 ^
 std::string excerpt(std::string_view text, const SourcePosition& where);
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline gfile_internal

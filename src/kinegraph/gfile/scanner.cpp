@@ -5,7 +5,7 @@
 
 #include "kinegraph/common/text.h"
 
-namespace kinegraph {
+namespace kinegraph::inline gfile_internal {
 
 bool startsWord(char c) {
   return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_' || c == '/' || c == '$' ||
@@ -140,4 +140,4 @@ std::vector<std::string> Scanner::parseNames() {
   }
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline gfile_internal

@@ -6,7 +6,7 @@
 
 #include "kinegraph/common/errors.h"
 
-namespace kinegraph {
+namespace kinegraph::inline gfile_internal {
 
 /// A set of characters with constant-time look-up: `kStops[c]`.
 class CharSet {
@@ -68,4 +68,4 @@ class Scanner {
   mutable std::size_t last_line_ = 0;  ///< of the previous query: the next one is close
 };
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline gfile_internal

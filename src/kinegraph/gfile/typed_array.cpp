@@ -5,7 +5,7 @@
 #include "kinegraph/common/text.h"
 #include "kinegraph/gfile/typed_array.h"
 
-namespace kinegraph {
+namespace kinegraph::inline gfile_internal {
 
 namespace {
 
@@ -87,4 +87,4 @@ void decodeTypedArray(Value& value) {
   value.data = std::move(array);
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline gfile_internal

@@ -6,7 +6,7 @@
 
 #include "kinegraph/common/text.h"
 
-namespace kinegraph {
+namespace kinegraph::inline gfile_internal {
 
 namespace {
 
@@ -93,4 +93,4 @@ std::string writeFile(const Graph& graph) {
   return out;
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline gfile_internal

@@ -4,7 +4,7 @@
 
 #include "kinegraph/gfile/value.h"
 
-namespace kinegraph {
+namespace kinegraph::inline gfile_internal {
 
 /// Text that parses to the same value: numbers in their shortest exact form, strings unquoted if possible. Throws
 /// ValueError for text that the language cannot express (both kinds of quotes in one string).
@@ -16,4 +16,4 @@ std::string writeEntries(const Graph& graph);
 /// A file: one entry per line.
 std::string writeFile(const Graph& graph);
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline gfile_internal

@@ -7,7 +7,7 @@
 #include <numbers>
 #include <optional>
 
-namespace kinegraph {
+namespace kinegraph::inline ik_internal {
 
 namespace {
 
@@ -292,4 +292,4 @@ std::vector<SixAngles> ClosedFormArm::solveParallel(const RigidTransform& X) con
   return all;
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline ik_internal

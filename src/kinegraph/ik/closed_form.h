@@ -5,7 +5,7 @@
 
 #include "kinegraph/math/pose.h"
 
-namespace kinegraph {
+namespace kinegraph::inline ik_internal {
 
 /// The axis of a hinge in a reference configuration, in world coordinates.
 struct HingeAxis {
@@ -52,4 +52,4 @@ class ClosedFormArm {
 std::vector<std::array<double, 3>> anglesToPoint(const HingeAxis& first, const HingeAxis& second,
                                                  const HingeAxis& third, const Vector3d& from, const Vector3d& to);
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline ik_internal

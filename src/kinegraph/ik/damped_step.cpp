@@ -2,7 +2,7 @@
 
 #include "kinegraph/ik/damped_rows.h"
 
-namespace kinegraph {
+namespace kinegraph::inline ik_internal {
 
 void DampedStep::resize(int rows, int columns) {
   const auto atLeast = [](auto& values, std::size_t size) {
@@ -30,4 +30,4 @@ void DampedStep::solve(const double* x, const double* lower, const double* upper
 
 double DampedStep::damping(double square) { return lanes::dampingOf(square); }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline ik_internal

@@ -4,7 +4,7 @@
 
 #include "kinegraph/math/pose.h"
 
-namespace kinegraph {
+namespace kinegraph::inline ik_internal {
 
 /// The step dx of a bounded damped least squares problem, computed in the space of the rows, which are few:
 ///
@@ -39,4 +39,4 @@ class DampedStep {
   VectorXd step_;
 };
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline ik_internal

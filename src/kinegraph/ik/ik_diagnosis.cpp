@@ -6,7 +6,7 @@
 #include "kinegraph/common/text.h"
 #include "kinegraph/ik/target_questions.h"
 
-namespace kinegraph {
+namespace kinegraph::inline ik_internal {
 
 namespace {
 
@@ -92,4 +92,4 @@ std::string describeFailure(const IkProblem& problem, const IkJob& job, IkIterat
   return cat(text, "; at the nearest, ", join(reasons, "; "));
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline ik_internal

@@ -4,7 +4,7 @@
 #include "kinegraph/geometry/distance/proximity.h"
 #include "kinegraph/ik/ik_iterate.h"
 
-namespace kinegraph {
+namespace kinegraph::inline ik_internal {
 
 namespace {
 
@@ -327,4 +327,4 @@ void IkIterate::stepApart(const double* preferred, double damping) {
   problem_.normalize(x_.data());
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline ik_internal

@@ -8,7 +8,7 @@
 #include "kinegraph/ik/ik_job.h"
 #include "kinegraph/ik/ik_problem.h"
 
-namespace kinegraph {
+namespace kinegraph::inline ik_internal {
 
 /// The present x of a search: its errors, its near pairs, and the steps from there. One per thread.
 class IkIterate {
@@ -92,4 +92,4 @@ class IkIterate {
   std::vector<double> gradients_;  ///< (near pairs, variables): gradients of the distances
 };
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline ik_internal

@@ -7,7 +7,7 @@
 
 #include "kinegraph/math/pose.h"
 
-namespace kinegraph {
+namespace kinegraph::inline ik_internal {
 
 /// Polled during a search; true cancels it. It may throw.
 using Stop = std::function<bool()>;
@@ -45,4 +45,4 @@ struct IkJob {
   std::vector<int> blocked;  ///< per pair: number of attempts that met their targets with this pair as worst collision
 };
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline ik_internal

@@ -1,6 +1,6 @@
 #include "kinegraph/ik/ik_kernel.h"
 
-namespace kinegraph {
+namespace kinegraph::inline ik_internal {
 
 IkKernel ikKernel(int width) {
 #ifdef KINEGRAPH_WIDE_LANES
@@ -11,4 +11,4 @@ IkKernel ikKernel(int width) {
   return {2, lanes::runIkBase};
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline ik_internal

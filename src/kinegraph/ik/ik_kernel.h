@@ -2,7 +2,7 @@
 
 #include "kinegraph/kinematics/lane_model.h"
 
-namespace kinegraph {
+namespace kinegraph::inline ik_internal {
 
 /// Targets, and the links that move them, as plain arrays, for several attempts of inverse kinematics side by side, one
 /// per lane of a wide register. The struct owns no memory, so that code compiled for wide registers shares no inline
@@ -57,11 +57,11 @@ constexpr int kMostIkRows = 12;
 /// Returns the kernel for `width` lanes, one of laneWidths().
 IkKernel ikKernel(int width);
 
-namespace lanes {
+}  // namespace kinegraph::inline ik_internal
+
+namespace kinegraph::lanes {
 /// One function per instruction set.
 void runIkBase(const IkKernelModel& model, const IkKernelMemory& memory);
 void runIkAvx2(const IkKernelModel& model, const IkKernelMemory& memory);
 void runIkAvx512(const IkKernelModel& model, const IkKernelMemory& memory);
-}  // namespace lanes
-
-}  // namespace kinegraph
+}  // namespace kinegraph::lanes

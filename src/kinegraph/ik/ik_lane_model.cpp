@@ -3,7 +3,7 @@
 #include "kinegraph/ik/ik_lanes.h"
 #include "kinegraph/kinematics/lane_storage.h"
 
-namespace kinegraph {
+namespace kinegraph::inline ik_internal {
 
 namespace {
 
@@ -72,4 +72,4 @@ LaneBuffer::LaneBuffer(const IkKernelModel& model, int lanes) {
   setWorld(memory.pose, lanes);
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline ik_internal

@@ -5,7 +5,7 @@
 
 #include "kinegraph/math/lane_widths.h"
 
-namespace kinegraph {
+namespace kinegraph::inline ik_internal {
 
 IkLanes::IkLanes(std::shared_ptr<const IkProblem> problem, int width)
     : problem_(std::move(problem)),
@@ -139,4 +139,4 @@ void IkLanes::close(int index, bool cancelled) {
   }
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline ik_internal

@@ -7,7 +7,7 @@
 #include "kinegraph/ik/ik_search.h"
 #include "kinegraph/kinematics/lane_kinematics.h"
 
-namespace kinegraph {
+namespace kinegraph::inline ik_internal {
 
 /// The kinematics of a problem as arrays for ik_kernel.h, which this class owns.
 class IkLaneModel {
@@ -104,4 +104,4 @@ class IkLanes {
   bool cancelled_ = false;
 };
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline ik_internal

@@ -10,7 +10,7 @@
 #include "kinegraph/ik/target_questions.h"
 #include "kinegraph/kinematics/chains.h"
 
-namespace kinegraph {
+namespace kinegraph::inline ik_internal {
 
 namespace {
 
@@ -201,4 +201,4 @@ const std::string& jointName(const KinematicModel& model, int dof) {
   return model.frame_name[std::size_t(owner - model.frame_dofs.begin())];
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline ik_internal

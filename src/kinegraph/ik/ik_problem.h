@@ -10,7 +10,7 @@
 #include "kinegraph/ik/low_discrepancy.h"
 #include "kinegraph/ik/solve_ik.h"
 
-namespace kinegraph {
+namespace kinegraph::inline ik_internal {
 
 /// The data of a Config that inverse kinematics needs, computed once. It is immutable and shared by all attempts,
 /// problems and threads. Its variables x are the dofs that move a target.
@@ -66,4 +66,4 @@ struct IkProblem {
 /// Returns the name of the frame whose joint has a dof.
 const std::string& jointName(const KinematicModel& model, int dof);
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline ik_internal

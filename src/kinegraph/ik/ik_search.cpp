@@ -6,7 +6,7 @@
 #include "kinegraph/ik/ik_diagnosis.h"
 #include "kinegraph/ik/target_questions.h"
 
-namespace kinegraph {
+namespace kinegraph::inline ik_internal {
 
 IkSearch::IkSearch(std::shared_ptr<const IkProblem> problem)
     : problem_(std::move(problem)), iterate_(*problem_), step_(problem_->variables()) {}
@@ -240,4 +240,4 @@ std::string IkSearch::askAboutQuaternions(const IkJob& job, const CancellationTo
   return met ? "; did you mean w x y z? Read as x y z w, the quaternion is reached" : "";
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline ik_internal

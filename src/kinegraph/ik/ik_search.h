@@ -7,7 +7,7 @@
 #include "kinegraph/ik/ik_iterate.h"
 #include "kinegraph/ik/solve_ik.h"
 
-namespace kinegraph {
+namespace kinegraph::inline ik_internal {
 
 /// Solves problems that differ in the numbers of their targets only. One per thread.
 class IkSearch {
@@ -47,4 +47,4 @@ class IkSearch {
   VectorXd step_, best_;
 };
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline ik_internal

@@ -66,7 +66,7 @@ std::vector<int> effective(const std::vector<int>& dofs, const State& scene, Res
 
 }  // namespace
 
-void requireNumbers(const IkTarget& target) {
+void ik_internal::requireNumbers(const IkTarget& target) {
   using Kind = IkTarget::Kind;
   const auto require = [&](bool good, const char* what) {
     if (!good) throw ValueError(cat("solveIk: the ", what, " in the target of frame '", target.frame, "'"));

@@ -6,7 +6,7 @@
 #include "kinegraph/features/residual.h"
 #include "kinegraph/ik/ik_target.h"
 
-namespace kinegraph {
+namespace kinegraph::inline ik_internal {
 
 /// The part of a target that several problems share: everything except its numbers.
 struct IkTask {
@@ -43,4 +43,4 @@ struct IkTask {
 /// Throws ValueError for numbers that are not finite, and for zero axes and quaternions.
 void requireNumbers(const IkTarget& target);
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline ik_internal

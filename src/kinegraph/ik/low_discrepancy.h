@@ -6,7 +6,7 @@
 #include "kinegraph/common/random.h"
 #include "kinegraph/math/pose.h"
 
-namespace kinegraph {
+namespace kinegraph::inline ik_internal {
 
 /// A sequence of points whose every prefix fills the unit cube evenly: x_i = frac(shift + i a), with a_k = phi^-k and
 /// phi the root of phi^(d+1) = phi + 1.
@@ -36,4 +36,4 @@ class LowDiscrepancy {
   VectorXd step_, shift_;
 };
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline ik_internal

@@ -8,6 +8,10 @@
 #include "kinegraph/ik/ik_target.h"
 #include "kinegraph/nlp/parameter.h"
 
+namespace kinegraph::inline ik_internal {
+struct IkProblem;
+}
+
 namespace kinegraph {
 /// How solveIk ended.
 enum class IkStatus {
@@ -78,8 +82,6 @@ std::vector<IkResult> solveIkBatch(const Config& config, const std::vector<std::
 /// Without a solution, the only result is that of solveIk, with its message. Throws as solveIk does.
 std::vector<IkResult> solveIkAll(const Config& config, const std::vector<IkTarget>& targets,
                                  const IkOptions& options = {}, const CancellationToken& cancellation = {});
-
-struct IkProblem;
 
 /// solveIk in two stages: the constructor computes everything that does not depend on the numbers of the targets,
 /// `solve` searches. The solver copies the data of the Config, so `solve` may run while the Config changes.

@@ -5,7 +5,7 @@
 #include "kinegraph/common/guessed_units.h"
 #include "kinegraph/common/text.h"
 
-namespace kinegraph {
+namespace kinegraph::inline ik_internal {
 
 namespace {
 
@@ -36,4 +36,4 @@ std::string askAboutLength(const Vector3d& position, double missed_by) {
   return askForMeters(position[most]);
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline ik_internal

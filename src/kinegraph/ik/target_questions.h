@@ -5,7 +5,7 @@
 
 #include "kinegraph/ik/ik_task.h"
 
-namespace kinegraph {
+namespace kinegraph::inline ik_internal {
 
 /// The rotation that four numbers in the order w x y z mean if they are read as x y z w.
 Quaterniond readAsXyzw(const Quaterniond& rotation);
@@ -17,4 +17,4 @@ std::string askAboutOrder(const IkTask& task, const State& present);
 /// Asks whether the position of a missed target is in millimeters. "" if it is near, or missed by little.
 std::string askAboutLength(const Vector3d& position, double missed_by);
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline ik_internal

@@ -2,7 +2,7 @@
 
 #include "kinegraph/kinematics/kinematic_model.h"
 
-namespace kinegraph {
+namespace kinegraph::inline kinematics_internal {
 
 /// Returns true if test(column) holds for a twist column that moves frame a but not b, or b but not a. Stops at the
 /// first such column; -1 is the world.
@@ -24,4 +24,4 @@ void forColumnsBetween(const KinematicModel& model, int a, int b, const Visit& v
   anyColumnBetween(model, a, b, [&](int column) { return visit(column), false; });
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline kinematics_internal

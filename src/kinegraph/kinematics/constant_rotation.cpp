@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-namespace kinegraph {
+namespace kinegraph::inline kinematics_internal {
 
 ConstantRotation classifyRotation(const double* R) {
   ConstantRotation rotation;
@@ -24,4 +24,4 @@ ConstantRotation classifyRotation(const double* R) {
   return rotation;
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline kinematics_internal

@@ -1,6 +1,6 @@
 #pragma once
 
-namespace kinegraph {
+namespace kinegraph::inline kinematics_internal {
 
 /// Structure of a constant rotation R that is multiplied from the right. Most are identities or quarter rotations; then
 /// column k of the product is sign[k] times column[k] of the left factor.
@@ -14,4 +14,4 @@ struct ConstantRotation {
 /// Classifies a rotation given by its columns. Deviations up to rounding (1e-15) from a quarter rotation are ignored.
 ConstantRotation classifyRotation(const double* R);
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline kinematics_internal

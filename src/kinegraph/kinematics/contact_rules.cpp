@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace kinegraph {
+namespace kinegraph::inline kinematics_internal {
 
 namespace {
 
@@ -42,4 +42,4 @@ bool ContactRules::excludedByFlag(const Body& a, const Body& b) const {
   return false;
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline kinematics_internal

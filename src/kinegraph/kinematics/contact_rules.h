@@ -3,7 +3,7 @@
 #include <utility>
 #include <vector>
 
-namespace kinegraph {
+namespace kinegraph::inline kinematics_internal {
 
 /// Rules for the pairs of shapes that may collide; Config::getCollidablePairs documents them. Pairs are not listed,
 /// because there may be many.
@@ -32,4 +32,4 @@ struct ContactRules {
   bool excludedByFlag(const Body& a, const Body& b) const;
 };
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline kinematics_internal

@@ -82,21 +82,23 @@ void LinkInertia::add(const LinkInertia& part, const RigidTransform& X_LF) {
   com = common;
 }
 
-VectorXd inverseDynamics(const State& state, const std::vector<LinkInertia>& inertias, const VectorXd& velocity,
-                         const VectorXd& acceleration, const Vector3d& gravity) {
+VectorXd kinematics_internal::inverseDynamics(const State& state, const std::vector<LinkInertia>& inertias,
+                                              const VectorXd& velocity, const VectorXd& acceleration,
+                                              const Vector3d& gravity) {
   VectorXd forces(state.model().dofs);
   newtonEuler(state, inertias, velocity.data(), acceleration.data(), gravity, forces);
   return forces;
 }
 
-void inverseDynamics(const State& state, const std::vector<LinkInertia>& inertias,
-                     const Eigen::Ref<const VectorXd>& velocity, const Eigen::Ref<const VectorXd>& acceleration,
-                     Eigen::Ref<VectorXd> forces, const Vector3d& gravity) {
+void kinematics_internal::inverseDynamics(const State& state, const std::vector<LinkInertia>& inertias,
+                                          const Eigen::Ref<const VectorXd>& velocity,
+                                          const Eigen::Ref<const VectorXd>& acceleration, Eigen::Ref<VectorXd> forces,
+                                          const Vector3d& gravity) {
   newtonEuler(state, inertias, velocity.data(), acceleration.data(), gravity, forces);
 }
 
-EquationOfMotion equationOfMotion(const State& state, const std::vector<LinkInertia>& inertias,
-                                  const VectorXd& velocity, const Vector3d& gravity) {
+EquationOfMotion kinematics_internal::equationOfMotion(const State& state, const std::vector<LinkInertia>& inertias,
+                                                       const VectorXd& velocity, const Vector3d& gravity) {
   const KinematicModel& model = state.model();
   EquationOfMotion equation{MatrixXd::Zero(model.dofs, model.dofs), VectorXd(model.dofs)};
   newtonEuler(state, inertias, velocity.data(), nullptr, gravity, equation.F);
@@ -113,7 +115,8 @@ EquationOfMotion equationOfMotion(const State& state, const std::vector<LinkIner
   return equation;
 }
 
-std::pair<double, Vector3d> centerOfMass(const State& state, const std::vector<LinkInertia>& inertias) {
+std::pair<double, Vector3d> kinematics_internal::centerOfMass(const State& state,
+                                                              const std::vector<LinkInertia>& inertias) {
   double mass = 0.;
   Vector3d moment = Vector3d::Zero();
   for (std::size_t l = 1; l < inertias.size(); ++l) {
@@ -123,7 +126,8 @@ std::pair<double, Vector3d> centerOfMass(const State& state, const std::vector<L
   return {mass, mass > 0. ? Vector3d(moment / mass) : moment};
 }
 
-double kineticEnergy(const State& state, const std::vector<LinkInertia>& inertias, const VectorXd& velocity) {
+double kinematics_internal::kineticEnergy(const State& state, const std::vector<LinkInertia>& inertias,
+                                          const VectorXd& velocity) {
   LinkMotions motions;
   propagate(state, velocity.data(), nullptr, Vector3d::Zero(), motions);
   double twice = 0.;
@@ -133,7 +137,8 @@ double kineticEnergy(const State& state, const std::vector<LinkInertia>& inertia
   return .5 * twice;
 }
 
-double potentialEnergy(const State& state, const std::vector<LinkInertia>& inertias, const Vector3d& gravity) {
+double kinematics_internal::potentialEnergy(const State& state, const std::vector<LinkInertia>& inertias,
+                                            const Vector3d& gravity) {
   const auto [mass, com] = centerOfMass(state, inertias);
   return -mass * gravity.dot(com);
 }

@@ -5,7 +5,7 @@
 #include "kinegraph/kinematics/joint.h"
 #include "kinegraph/kinematics/state.h"
 
-namespace kinegraph {
+namespace kinegraph::inline kinematics_internal {
 
 /// Computes both terms at the state's q and the velocity dq. Redundant dofs (the norm of a quaternion) have no inertia.
 EquationOfMotion equationOfMotion(const State& state, const std::vector<LinkInertia>& inertias,
@@ -33,4 +33,4 @@ inline Vector3d frameCenterOfMass(const State& state, int frame) {
   return state.pose(frame) * state.parameters().frame_mass[frame].com;
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline kinematics_internal

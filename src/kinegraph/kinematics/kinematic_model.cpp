@@ -5,7 +5,7 @@
 #include "kinegraph/common/errors.h"
 #include "kinegraph/common/text.h"
 
-namespace kinegraph {
+namespace kinegraph::inline kinematics_internal {
 
 void nameFrames(KinematicModel& model, std::vector<std::string> names) {
   model.frame_name = std::move(names);
@@ -121,4 +121,4 @@ RigidTransform placeJoint(const KinematicModel& model, int index, const RigidTra
   return X_LJ;
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline kinematics_internal

@@ -15,8 +15,10 @@
 #include "kinegraph/math/pose.h"
 
 namespace kinegraph {
-
 class CollisionBody;
+}
+
+namespace kinegraph::inline kinematics_internal {
 
 /// The compiled kinematic structure of a scene. It is immutable and shared by all computations. Numbers that may change
 /// between computations are in `Parameters` and in q.
@@ -112,4 +114,4 @@ int frameId(const KinematicModel& model, std::string_view name, std::string_view
 /// Computes `last_column`, `column_before`, `column_dof`, `fixed_axes` and `angle_dof` from `links` and `steps`.
 void connectChains(KinematicModel& model);
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline kinematics_internal

@@ -1,6 +1,6 @@
 #include "kinegraph/kinematics/lane_model.h"
 
-namespace kinegraph {
+namespace kinegraph::inline kinematics_internal {
 
 RunLanes laneKernel(int width) {
 #ifdef KINEGRAPH_WIDE_LANES
@@ -11,4 +11,4 @@ RunLanes laneKernel(int width) {
   return lanes::runRowsBase;
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline kinematics_internal

@@ -6,7 +6,7 @@
 #include "kinegraph/kinematics/lane_storage.h"
 #include "kinegraph/math/lane_widths.h"
 
-namespace kinegraph {
+namespace kinegraph::inline kinematics_internal {
 
 namespace {
 
@@ -173,4 +173,4 @@ LaneKinematics::Scratch::Scratch(const LaneKinematics& kinematics, int width) {
   setWorld(memory_.pose, lanes);
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline kinematics_internal

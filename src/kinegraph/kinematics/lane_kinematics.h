@@ -5,7 +5,7 @@
 #include "kinegraph/kinematics/kinematic_model.h"
 #include "kinegraph/kinematics/lane_model.h"
 
-namespace kinegraph {
+namespace kinegraph::inline kinematics_internal {
 
 /// The links of a KinematicModel that move certain frames, for kernels in lanes.
 class LaneLinks {
@@ -96,4 +96,4 @@ class LaneKinematics {
   std::vector<LaneRows::Entry> entry_;
 };
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline kinematics_internal

@@ -3,7 +3,7 @@
 #include "kinegraph/kinematics/constant_rotation.h"
 #include "kinegraph/kinematics/motion_kind.h"
 
-namespace kinegraph {
+namespace kinegraph::inline kinematics_internal {
 
 // Kinematics as plain arrays, for one configuration or several side by side, one per lane of a wide register. This file
 // defines neither owning types nor inline functions, because code for other instruction sets includes it. Rotations are
@@ -106,11 +106,11 @@ using RunLanes = void (*)(const LaneModel& model, const LaneRows& rows, const La
 /// Returns the kernel for `width` lanes, one of laneWidths().
 RunLanes laneKernel(int width);
 
-namespace lanes {
+}  // namespace kinegraph::inline kinematics_internal
+
+namespace kinegraph::lanes {
 /// One function per instruction set.
 void runRowsBase(const LaneModel& model, const LaneRows& rows, const LaneMemory& memory, const LaneBatch& batch);
 void runRowsAvx2(const LaneModel& model, const LaneRows& rows, const LaneMemory& memory, const LaneBatch& batch);
 void runRowsAvx512(const LaneModel& model, const LaneRows& rows, const LaneMemory& memory, const LaneBatch& batch);
-}  // namespace lanes
-
-}  // namespace kinegraph
+}  // namespace kinegraph::lanes

@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-namespace kinegraph {
+namespace kinegraph::inline kinematics_internal {
 
 /// Assigns each part (a pointer and its number of rows of `lanes` numbers) its place in `storage`, aligned for
 /// registers of this size. Fills the storage with zeros.
@@ -29,4 +29,4 @@ inline void setWorld(double* pose, int lanes) {
   for (int k : {0, 4, 8}) std::fill_n(pose + k * lanes, lanes, 1.);
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline kinematics_internal

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace kinegraph {
+namespace kinegraph::inline kinematics_internal {
 
 namespace {
 
@@ -88,4 +88,4 @@ void LinkBodies::appendPairs(int group_a, int group_b, std::vector<Pair>& to) co
   }
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline kinematics_internal

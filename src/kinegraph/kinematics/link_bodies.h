@@ -3,11 +3,11 @@
 #include <memory>
 #include <vector>
 
-#include "kinegraph/geometry/distance/box_tree.h"
+#include "kinegraph/geometry/distance/closed_form/box_tree.h"
 #include "kinegraph/geometry/distance/collision_body.h"
 #include "kinegraph/kinematics/state.h"
 
-namespace kinegraph {
+namespace kinegraph::inline kinematics_internal {
 
 /// The collision bodies of a scene grouped by link, and the pairs that collision checks consider. Each body fixed to
 /// the world forms a group of its own, since such bodies need not be near each other.
@@ -57,4 +57,4 @@ struct LinkBodies {
   std::shared_ptr<const KinematicModel> model;
 };
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline kinematics_internal

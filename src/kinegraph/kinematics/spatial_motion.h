@@ -2,7 +2,7 @@
 
 #include "kinegraph/kinematics/dynamics.h"
 
-namespace kinegraph {
+namespace kinegraph::inline kinematics_internal {
 
 /// Velocity field of a rigid body, or its rate: angular, and linear at the world's origin.
 struct Motion {
@@ -54,4 +54,4 @@ inline double power(const Motion& motion, const Wrench& wrench) {
   return motion.angular.dot(wrench.angular) + motion.linear.dot(wrench.linear);
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline kinematics_internal

@@ -4,7 +4,7 @@
 
 #include "kinegraph/kinematics/state_kernel.h"
 
-namespace kinegraph {
+namespace kinegraph::inline kinematics_internal {
 
 State::State(std::shared_ptr<const KinematicModel> model, std::shared_ptr<const Parameters> parameters)
     : model_(std::move(model)),
@@ -142,4 +142,4 @@ void State::addDirectionCurvature(int frame, const Vector3d& u, const Vector3d& 
       frame, [&u](const Twist& twist) -> Vector3d { return twist.angular.cross(u); }, weight, H);
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline kinematics_internal

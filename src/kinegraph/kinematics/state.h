@@ -6,7 +6,7 @@
 #include "kinegraph/kinematics/kinematic_model.h"
 #include "kinegraph/math/eigen.h"
 
-namespace kinegraph {
+namespace kinegraph::inline kinematics_internal {
 
 /// Kinematics of a KinematicModel at a joint vector q: link poses and the twist of each dof. Allocates no memory after
 /// construction.
@@ -111,4 +111,4 @@ class State {
   std::vector<SineCosine> sines_cosines_;  ///< per entry of model().angle_dof
 };
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline kinematics_internal

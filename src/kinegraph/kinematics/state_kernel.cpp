@@ -1,6 +1,6 @@
 #include "kinegraph/kinematics/state_kernel.h"
 
-namespace kinegraph {
+namespace kinegraph::inline kinematics_internal {
 
 UpdateState stateKernel() {
 #ifdef KINEGRAPH_WIDE_LANES
@@ -10,4 +10,4 @@ UpdateState stateKernel() {
   return lanes::updateStateBase;
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline kinematics_internal

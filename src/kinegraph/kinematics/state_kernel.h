@@ -2,7 +2,7 @@
 
 #include "kinegraph/kinematics/lane_model.h"
 
-namespace kinegraph {
+namespace kinegraph::inline kinematics_internal {
 
 /// Input and output of forward kinematics of one configuration, in the layout of State. Kernels write poses and twists
 /// in order, and may write one number after the last one.
@@ -25,9 +25,9 @@ using UpdateState = void (*)(const StateArrays& state);
 /// Returns the fastest kernel for this processor.
 UpdateState stateKernel();
 
-namespace lanes {
+}  // namespace kinegraph::inline kinematics_internal
+
+namespace kinegraph::lanes {
 void updateStateBase(const StateArrays& state);
 void updateStateAvx2(const StateArrays& state);
-}  // namespace lanes
-
-}  // namespace kinegraph
+}  // namespace kinegraph::lanes

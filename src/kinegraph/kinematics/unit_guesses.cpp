@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace kinegraph {
+namespace kinegraph::inline kinematics_internal {
 
 namespace {
 
@@ -34,4 +34,4 @@ bool looksLikeDegrees(const KinematicModel& model, const VectorXd& q) {
   return is_suspicious && (is_round || is_far);  // people write degrees as round numbers
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline kinematics_internal

@@ -2,7 +2,7 @@
 
 #include "kinegraph/kinematics/kinematic_model.h"
 
-namespace kinegraph {
+namespace kinegraph::inline kinematics_internal {
 
 /// Scales the quaternions and circles among the dofs to length 1; a zero one becomes the identity.
 inline void scaleToUnitNorms(const std::vector<KinematicModel::DofRange>& unit_norms, Eigen::Ref<VectorXd> q) {
@@ -17,4 +17,4 @@ inline void scaleToUnitNorms(const std::vector<KinematicModel::DofRange>& unit_n
   }
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline kinematics_internal

@@ -7,7 +7,7 @@
 #include "kinegraph/kinematics/dynamics.h"
 #include "kinegraph/kinematics/spatial_motion.h"
 
-namespace kinegraph {
+namespace kinegraph::inline kinematics_internal {
 
 namespace {
 
@@ -169,4 +169,4 @@ MatrixXd centroidalMomentumMatrix(const State& state, const std::vector<LinkIner
   return A;
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline kinematics_internal

@@ -4,7 +4,7 @@
 
 #include "kinegraph/kinematics/joint.h"
 
-namespace kinegraph {
+namespace kinegraph::inline kinematics_internal {
 
 class State;
 struct KinematicModel;
@@ -25,4 +25,4 @@ RigidBodyDynamics rigidBodyDynamics(const State& state, const std::vector<LinkIn
 /// Source: Orin, Goswami & Lee, Centroidal dynamics of a humanoid robot, 2013.
 MatrixXd centroidalMomentumMatrix(const State& state, const std::vector<LinkInertia>& inertias);
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline kinematics_internal

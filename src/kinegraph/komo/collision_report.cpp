@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <iterator>
 
-namespace kinegraph {
+namespace kinegraph::inline komo_internal {
 
 namespace {
 
@@ -133,4 +133,4 @@ ValidityReport reportCollisions(const std::vector<SliceMotion>& motions, const C
   return {false, deepest->str()};
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline komo_internal

@@ -4,7 +4,7 @@
 #include "kinegraph/komo/objective.h"
 #include "kinegraph/komo/path/path_motion.h"
 
-namespace kinegraph {
+namespace kinegraph::inline komo_internal {
 
 // Collects the motions between slices that the constraints of a problem require to be collision-free, and checks them.
 // A motion counts if an objective constrains the motions between slices, or if the objectives forbid a collision in
@@ -22,4 +22,4 @@ bool constrainsAnyMotion(const Path& path, const std::vector<Objective>& objecti
 /// polled between motions, and may throw.
 ValidityReport reportCollisions(const std::vector<SliceMotion>& motions, const CancellationToken& cancellation);
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline komo_internal

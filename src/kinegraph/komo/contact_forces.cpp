@@ -7,7 +7,7 @@
 #include "kinegraph/kinematics/dynamics.h"
 #include "kinegraph/komo/mode_switches.h"
 
-namespace kinegraph {
+namespace kinegraph::inline komo_internal {
 
 namespace {
 
@@ -122,4 +122,4 @@ std::string addContactForce(MotionProblem& motion, const ContactSpec& spec) {
   return name;
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline komo_internal

@@ -5,7 +5,7 @@
 
 #include "kinegraph/komo/motion_problem.h"
 
-namespace kinegraph {
+namespace kinegraph::inline komo_internal {
 
 /// Specification of a force at a point fixed on an object, in some slices.
 struct ContactSpec {
@@ -22,4 +22,4 @@ struct ContactSpec {
 /// FrameNotFound and ValueError.
 std::string addContactForce(MotionProblem& motion, const ContactSpec& spec);
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline komo_internal

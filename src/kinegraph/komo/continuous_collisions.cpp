@@ -6,7 +6,7 @@
 
 #include "kinegraph/features/collisions.h"
 
-namespace kinegraph {
+namespace kinegraph::inline komo_internal {
 
 namespace {
 
@@ -173,4 +173,4 @@ void addApproaches(Objective& objective, SliceMotions& motions, double max_dista
   }
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline komo_internal

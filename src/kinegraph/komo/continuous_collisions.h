@@ -3,7 +3,7 @@
 #include "kinegraph/komo/collision/slice_motions.h"
 #include "kinegraph/komo/objective.h"
 
-namespace kinegraph {
+namespace kinegraph::inline komo_internal {
 
 // A continuously collision-free motion is a problem with infinitely many constraints. It is solved with the constraints
 // in the slices first. Collision samples are then added at the times between slices at which the solution collides, and
@@ -58,4 +58,4 @@ void reserveSamples(Objective& objective, int count);
 /// Adds samples at which pairs approach each other to less than `max_distance` (m).
 void addApproaches(Objective& objective, SliceMotions& motions, double max_distance);
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline komo_internal

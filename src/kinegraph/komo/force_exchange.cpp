@@ -203,7 +203,7 @@ ForceExchange forceExchangeFromName(const std::string& name) {
   return ForceExchange(place - names.begin());
 }
 
-std::string addForceExchange(MotionProblem& motion, const ForceExchangeSpec& spec) {
+std::string komo_internal::addForceExchange(MotionProblem& motion, const ForceExchangeSpec& spec) {
   return ForceExchangeBuilder(motion, spec).add();
 }
 

@@ -5,7 +5,7 @@
 
 #include "kinegraph/komo/path/path_records.h"
 
-namespace kinegraph {
+namespace kinegraph::inline komo_internal {
 
 struct MotionProblem;
 
@@ -21,4 +21,4 @@ struct ForceExchangeSpec {
 /// name of the point. Throws FrameNotFound and ValueError.
 std::string addForceExchange(MotionProblem& motion, const ForceExchangeSpec& spec);
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline komo_internal

@@ -15,13 +15,17 @@
 #include "kinegraph/nlp/parameter.h"
 #include "kinegraph/scene/config.h"
 
-namespace kinegraph {
-
-class ConfigViewer;
+namespace kinegraph::inline komo_internal {
 class Contacts;
 class ObjectiveList;
 class Path;
 struct MotionProblem;
+struct Objective;
+}
+
+namespace kinegraph {
+
+class ConfigViewer;
 struct SolveManyOptions;
 struct SolveManyResult;
 struct SolverOptions;
@@ -196,8 +200,6 @@ std::shared_ptr<Nlp> makeNlp(std::shared_ptr<Komo> komo);
 
 /// Returns the Komo from which a problem was made; null for other problems.
 std::shared_ptr<Komo> komoOf(const Nlp& nlp);
-
-struct Objective;
 
 /// Residuals of a trajectory optimization problem at its present path, summed by objective and slice.
 struct PathErrors {

@@ -294,7 +294,7 @@ std::shared_ptr<Nlp> makeNlp(std::shared_ptr<Komo> komo) {
   return std::make_shared<KomoNlp>(std::move(komo));
 }
 
-std::shared_ptr<Nlp> makeNlp(std::shared_ptr<Komo> komo, std::vector<Objective> objectives) {
+std::shared_ptr<Nlp> komo_internal::makeNlp(std::shared_ptr<Komo> komo, std::vector<Objective> objectives) {
   return std::make_shared<KomoNlp>(std::move(komo), std::move(objectives));
 }
 
@@ -303,12 +303,12 @@ std::shared_ptr<Komo> komoOf(const Nlp& nlp) {
   return problem ? problem->komo() : nullptr;
 }
 
-const std::vector<Objective>* objectivesOf(const Nlp& nlp) {
+const std::vector<Objective>* komo_internal::objectivesOf(const Nlp& nlp) {
   const auto* of_komo = dynamic_cast<const KomoNlp*>(&nlp);
   return of_komo ? &of_komo->problem().objectives() : nullptr;
 }
 
-std::vector<PathComponent> pathComponents(const Nlp& nlp) {
+std::vector<PathComponent> komo_internal::pathComponents(const Nlp& nlp) {
   std::vector<PathComponent> rows;
   const auto* of_komo = dynamic_cast<const KomoNlp*>(&nlp);
   if (!of_komo) return rows;
@@ -319,7 +319,7 @@ std::vector<PathComponent> pathComponents(const Nlp& nlp) {
   return rows;
 }
 
-std::vector<PathTerm> pathTerms(const Nlp& nlp) {
+std::vector<PathTerm> komo_internal::pathTerms(const Nlp& nlp) {
   std::vector<PathTerm> terms;
   const auto* of_komo = dynamic_cast<const KomoNlp*>(&nlp);
   if (!of_komo) return terms;
@@ -330,7 +330,7 @@ std::vector<PathTerm> pathTerms(const Nlp& nlp) {
   return terms;
 }
 
-void evaluatePathTerms(Nlp& nlp, const std::vector<int>& terms, VectorXd& phi, Jacobian& J) {
+void komo_internal::evaluatePathTerms(Nlp& nlp, const std::vector<int>& terms, VectorXd& phi, Jacobian& J) {
   dynamic_cast<KomoNlp&>(nlp).evaluateTerms(terms, phi, J);
 }
 

@@ -5,7 +5,7 @@
 #include "kinegraph/common/errors.h"
 #include "kinegraph/common/text.h"
 
-namespace kinegraph {
+namespace kinegraph::inline komo_internal {
 
 namespace {
 
@@ -201,4 +201,4 @@ void addFrameDof(Path& path, const FrameSpec& spec) {
   path.addFrame(spec.name, below, type, spec.stable, origin);
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline komo_internal

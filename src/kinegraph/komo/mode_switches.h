@@ -6,7 +6,7 @@
 
 #include "kinegraph/komo/motion_problem.h"
 
-namespace kinegraph {
+namespace kinegraph::inline komo_internal {
 
 /// Specification of a mode switch: from times[0] on, frames[1] is attached to frames[0] by the joint of `mode`. Modes
 /// in which an object moves freely also accept the object alone.
@@ -41,4 +41,4 @@ struct FrameSpec {
 /// Adds a frame. Throws FrameNotFound, and ValueError for an existing name and for unsupported joints.
 void addFrameDof(Path& path, const FrameSpec& spec);
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline komo_internal

@@ -3,7 +3,7 @@
 #include "kinegraph/komo/objective_list.h"
 #include "kinegraph/komo/path/contacts.h"
 
-namespace kinegraph {
+namespace kinegraph::inline komo_internal {
 
 /// A path, its objectives, and its contact forces, which mode switches and contacts modify together.
 struct MotionProblem {
@@ -17,4 +17,4 @@ struct MotionProblem {
   }
 };
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline komo_internal

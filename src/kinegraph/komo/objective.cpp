@@ -14,7 +14,7 @@
 #include "kinegraph/komo/path/path_features.h"
 #include "kinegraph/komo/path/path_motion.h"
 
-namespace kinegraph {
+namespace kinegraph::inline komo_internal {
 
 namespace {
 
@@ -138,4 +138,4 @@ Residual residualIn(const Objective& objective, const Path& path, const std::vec
   return residual;
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline komo_internal

@@ -10,7 +10,7 @@
 #include "kinegraph/komo/path/path.h"
 #include "kinegraph/nlp/nlp.h"
 
-namespace kinegraph {
+namespace kinegraph::inline komo_internal {
 
 /// One term of a trajectory optimization problem: scale * (d^order feature / dt^order - target), in some of its slices.
 struct Objective {
@@ -42,4 +42,4 @@ struct Objective {
 /// unless it depends on the dofs. Joint features without frames use the joints of the initial configuration.
 Residual residualIn(const Objective& objective, const Path& path, const std::vector<ContactForce>& forces, int slice);
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline komo_internal

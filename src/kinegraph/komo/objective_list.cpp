@@ -6,7 +6,7 @@
 #include "kinegraph/common/errors.h"
 #include "kinegraph/common/text.h"
 
-namespace kinegraph {
+namespace kinegraph::inline komo_internal {
 
 void ObjectiveList::add(Objective objective, const Path& path, const std::vector<ContactForce>& forces, int delta_from,
                         int delta_to) {
@@ -30,4 +30,4 @@ void ObjectiveList::add(Objective objective, const Path& path, const std::vector
   list_.push_back(std::move(objective));
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline komo_internal

@@ -6,7 +6,7 @@
 
 #include "kinegraph/komo/objective.h"
 
-namespace kinegraph {
+namespace kinegraph::inline komo_internal {
 
 /// The objectives of a trajectory optimization problem. Their order is that of the residuals. Each was validated
 /// against the path when it was added: its frames, sizes and order fit.
@@ -40,4 +40,4 @@ class ObjectiveList {
   std::vector<std::string> warnings_;
 };
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline komo_internal

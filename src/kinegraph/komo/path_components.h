@@ -5,7 +5,7 @@
 #include "kinegraph/komo/objective.h"
 #include "kinegraph/nlp/nlp.h"
 
-namespace kinegraph {
+namespace kinegraph::inline komo_internal {
 
 /// Origin of a residual component of a trajectory optimization problem.
 struct PathComponent {
@@ -35,4 +35,4 @@ void evaluatePathTerms(Nlp& nlp, const std::vector<int>& terms, VectorXd& phi, J
 /// other problems.
 const std::vector<Objective>* objectivesOf(const Nlp& nlp);
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline komo_internal

@@ -7,7 +7,7 @@
 #include "kinegraph/common/text.h"
 #include "kinegraph/komo/path/path_motion.h"
 
-namespace kinegraph {
+namespace kinegraph::inline komo_internal {
 
 namespace {
 
@@ -159,4 +159,4 @@ std::vector<std::string> pathComponentDetails(const Path& path, const PathProble
   return pairs;
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline komo_internal

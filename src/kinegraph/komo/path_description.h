@@ -2,7 +2,7 @@
 
 #include "kinegraph/komo/path_problem.h"
 
-namespace kinegraph {
+namespace kinegraph::inline komo_internal {
 
 /// Returns a name such as "positionDiff of l_gripper, target".
 std::string objectiveName(const Objective& objective);
@@ -16,4 +16,4 @@ VariableDescription describePathVariable(const Path& path, int variable);
 /// Returns the overlapping pairs at the present path if the residual is about collisions.
 std::vector<std::string> pathComponentDetails(const Path& path, const PathProblem& problem, int row);
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline komo_internal

@@ -7,7 +7,7 @@
 
 #include "kinegraph/features/residual.h"
 
-namespace kinegraph {
+namespace kinegraph::inline komo_internal {
 
 namespace {
 
@@ -301,4 +301,4 @@ void PathProblem::addCurvature(const Path& path, int k, std::span<const double> 
   residuals_[std::size_t(term.residual)].addCurvature(path.state(term.slice), weights, H);
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline komo_internal

@@ -7,7 +7,7 @@
 #include "kinegraph/features/residual.h"
 #include "kinegraph/komo/motion_problem.h"
 
-namespace kinegraph {
+namespace kinegraph::inline komo_internal {
 
 /// The layout of objectives on a path: the rows of phi of each objective in each slice, and the place of its Jacobian.
 /// Evaluates the present path. The structure of the path must not change after construction.
@@ -95,4 +95,4 @@ class PathProblem {
   int widest_state_ = 0, dimension_ = 0;
 };
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline komo_internal

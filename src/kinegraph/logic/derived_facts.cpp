@@ -4,7 +4,7 @@
 
 #include "kinegraph/common/text.h"
 
-namespace kinegraph {
+namespace kinegraph::inline logic_internal {
 
 namespace {
 
@@ -83,4 +83,4 @@ void deriveFacts(const GroundProblem& ground, FactSet& state) {
   }
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline logic_internal

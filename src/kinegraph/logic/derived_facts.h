@@ -4,7 +4,7 @@
 
 #include "kinegraph/logic/grounding.h"
 
-namespace kinegraph {
+namespace kinegraph::inline logic_internal {
 
 /// Sets the rules of derived predicates of a problem, in layers: the facts that a rule negates are of earlier layers.
 /// Throws ValueError if a fact is derived from its own negation. Source: Apt, Blair, Walker, Towards a theory of
@@ -14,4 +14,4 @@ void setDerivedRules(GroundProblem& ground, std::vector<GroundRule> rules);
 /// Derives the facts of derived predicates from the others: they hold exactly if a rule for them does.
 void deriveFacts(const GroundProblem& ground, FactSet& state);
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline logic_internal

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace kinegraph {
+namespace kinegraph::inline logic_internal {
 
 namespace {
 
@@ -182,4 +182,4 @@ void FactJoin::run(std::function<void(int, std::size_t)> spend, std::function<vo
   }
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline logic_internal

@@ -7,7 +7,7 @@
 #include <unordered_set>
 #include <vector>
 
-namespace kinegraph {
+namespace kinegraph::inline logic_internal {
 
 /// Constants as indices.
 using FactTuple = std::vector<int>;
@@ -103,4 +103,4 @@ class FactJoin {
   std::function<void(int, int)> report_;
 };
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline logic_internal

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace kinegraph {
+namespace kinegraph::inline logic_internal {
 
 namespace {
 
@@ -237,4 +237,4 @@ bool ConditionGrounder::add(const IndexedFormula& formula, std::vector<int>& bin
   return false;
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline logic_internal

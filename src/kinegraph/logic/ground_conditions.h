@@ -10,7 +10,7 @@
 #include "kinegraph/logic/fact_join.h"
 #include "kinegraph/logic/grounding.h"
 
-namespace kinegraph {
+namespace kinegraph::inline logic_internal {
 
 /// The names of a problem as indices, and the facts that can hold.
 struct GroundNames {
@@ -70,4 +70,4 @@ class ConditionGrounder {
   std::map<std::vector<int>, int> disjunctions_;  ///< index by content
 };
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline logic_internal

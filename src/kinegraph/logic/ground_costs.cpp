@@ -6,7 +6,7 @@
 
 #include "kinegraph/common/text.h"
 
-namespace kinegraph {
+namespace kinegraph::inline logic_internal {
 
 namespace {
 
@@ -51,4 +51,4 @@ void setActionCosts(GroundProblem& ground) {
   ground.cost_unit = 1 / scale;
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline logic_internal

@@ -2,7 +2,7 @@
 
 #include "kinegraph/common/text.h"
 
-namespace kinegraph {
+namespace kinegraph::inline logic_internal {
 
 namespace {
 
@@ -16,4 +16,4 @@ std::string knownWords(std::string_view word, const std::vector<std::string>& kn
   return cat("; expected one of ", join(known));
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline logic_internal

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace kinegraph {
+namespace kinegraph::inline logic_internal {
 
 namespace {
 
@@ -308,4 +308,4 @@ LandmarkCut::Cost LandmarkCut::operator()(const FactSet& state) {
   return kNever;
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline logic_internal

@@ -8,7 +8,7 @@
 
 #include "kinegraph/logic/grounding.h"
 
-namespace kinegraph {
+namespace kinegraph::inline logic_internal {
 
 /// Lists of numbers, one behind the other in memory.
 class NumberLists {
@@ -97,4 +97,4 @@ class LandmarkCut {
   std::vector<Free> free_;
 };
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline logic_internal

@@ -4,7 +4,7 @@
 
 #include "kinegraph/common/text.h"
 
-namespace kinegraph {
+namespace kinegraph::inline logic_internal {
 
 namespace {
 
@@ -105,4 +105,4 @@ void LogicScanner::fail(const std::string& expected) const {
   throw ParseError(token_.where, cat("expected ", expected, ", found ", token_.str()));
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline logic_internal

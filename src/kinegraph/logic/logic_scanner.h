@@ -5,7 +5,7 @@
 
 #include "kinegraph/common/errors.h"
 
-namespace kinegraph {
+namespace kinegraph::inline logic_internal {
 
 /// Splits a text of the logic languages into words and marks with their positions. Comments are skipped.
 class LogicScanner {
@@ -44,4 +44,4 @@ class LogicScanner {
   Token token_;
 };
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline logic_internal

@@ -5,7 +5,7 @@
 
 #include "kinegraph/common/text.h"
 
-namespace kinegraph {
+namespace kinegraph::inline logic_internal {
 
 namespace {
 
@@ -219,4 +219,4 @@ double PddlConditions::numberOf(const PddlExpression& at) {
   return value;
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline logic_internal

@@ -7,7 +7,7 @@
 #include "kinegraph/logic/pddl_expression.h"
 #include "kinegraph/logic/pddl_names.h"
 
-namespace kinegraph {
+namespace kinegraph::inline logic_internal {
 
 /// Reads conditions and effects of PDDL. Throws ParseError with file:line:column.
 class PddlConditions {
@@ -47,4 +47,4 @@ class PddlConditions {
 void readPddlVariables(const PddlExpression& list, std::size_t from, PddlNames& names,
                        std::vector<std::string>& variables, std::vector<std::string>& types);
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline logic_internal

@@ -4,7 +4,7 @@
 
 #include "kinegraph/common/text.h"
 
-namespace kinegraph {
+namespace kinegraph::inline logic_internal {
 
 namespace {
 
@@ -131,4 +131,4 @@ std::vector<PddlTyped> pddlTypedNames(const PddlExpression& list, std::size_t fr
   return names;
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline logic_internal

@@ -6,7 +6,7 @@
 
 #include "kinegraph/common/errors.h"
 
-namespace kinegraph {
+namespace kinegraph::inline logic_internal {
 
 /// A word of PDDL, or a list of words and lists.
 struct PddlExpression {
@@ -45,4 +45,4 @@ struct PddlTyped {
 /// Returns the names of a list from an index on.
 std::vector<PddlTyped> pddlTypedNames(const PddlExpression& list, std::size_t from, const char* what);
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline logic_internal

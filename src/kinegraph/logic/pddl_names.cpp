@@ -5,7 +5,7 @@
 #include "kinegraph/common/text.h"
 #include "kinegraph/logic/known_words.h"
 
-namespace kinegraph {
+namespace kinegraph::inline logic_internal {
 
 namespace {
 
@@ -200,4 +200,4 @@ void PddlNames::requireArity(const Literal& literal, bool is_function) const {
   }
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline logic_internal

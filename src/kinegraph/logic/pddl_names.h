@@ -8,7 +8,7 @@
 #include "kinegraph/logic/domain.h"
 #include "kinegraph/logic/pddl_expression.h"
 
-namespace kinegraph {
+namespace kinegraph::inline logic_internal {
 
 /// The names of a domain while PDDL is read: their spelling, the types, and the numbers of arguments.
 ///
@@ -56,4 +56,4 @@ class PddlNames {
   std::map<std::string, std::set<std::size_t>> predicates_, functions_;  ///< numbers of arguments
 };
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline logic_internal

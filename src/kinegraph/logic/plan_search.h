@@ -11,9 +11,11 @@
 #include "kinegraph/common/cancellation.h"
 #include "kinegraph/logic/grounding.h"
 
-namespace kinegraph {
-
+namespace kinegraph::inline logic_internal {
 class LandmarkCut;
+}
+
+namespace kinegraph {
 
 /// Enumerates the plans of a problem: all sequences of actions that end in the first state with the goal and visit no
 /// state twice. The shortest come first; if the problem has a metric, the cheapest come first, and of equal cost the

@@ -9,7 +9,7 @@
 // of D, so that it waits for one division of the column before. The order of sums does not depend on the width of
 // registers.
 
-namespace kinegraph {
+namespace kinegraph::inline math_internal {
 
 namespace {
 
@@ -221,4 +221,4 @@ void BandedMatrix::solveInPlace(VectorXd& x) {
   std::copy(x_.begin(), x_.begin() + size(), x.begin());
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline math_internal

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace kinegraph {
+namespace kinegraph::inline math_internal {
 
 namespace {
 
@@ -87,4 +87,4 @@ void BandedMatrix::addCrossProduct(const double* u, int u_first, int u_width, co
   }
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline math_internal

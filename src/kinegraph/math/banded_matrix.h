@@ -5,7 +5,7 @@
 
 #include "kinegraph/math/pose.h"
 
-namespace kinegraph {
+namespace kinegraph::inline math_internal {
 
 /// A symmetric positive definite matrix with a band around the diagonal and a border of full rows, and its factor L D
 /// L^T in place. Problems of paths have this form; the border holds variables that all slices share. A dense matrix has
@@ -91,4 +91,4 @@ class BandedMatrix {
   std::vector<double> x_, y_;    ///< vectors with the padding of columns
 };
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline math_internal

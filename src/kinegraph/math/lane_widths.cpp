@@ -5,7 +5,7 @@
 #include "kinegraph/common/errors.h"
 #include "kinegraph/common/text.h"
 
-namespace kinegraph {
+namespace kinegraph::inline math_internal {
 
 const std::vector<int>& laneWidths() {
   static const std::vector<int> widths = [] {
@@ -27,4 +27,4 @@ int checkedLaneWidth(int width) {
                        " numbers; expected 0 for the widest, or one of ", widths.front(), " to ", widths.back()));
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline math_internal

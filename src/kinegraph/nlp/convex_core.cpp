@@ -4,7 +4,7 @@
 
 #include "kinegraph/nlp/evaluation_sizes.h"
 
-namespace kinegraph {
+namespace kinegraph::inline nlp_internal {
 
 namespace {
 
@@ -136,4 +136,4 @@ class MinimalConvexCore final : public Nlp {
 
 std::shared_ptr<Nlp> makeMinimalConvexCore() { return std::make_shared<MinimalConvexCore>(); }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline nlp_internal

@@ -4,7 +4,7 @@
 
 #include "kinegraph/nlp/nlp.h"
 
-namespace kinegraph {
+namespace kinegraph::inline nlp_internal {
 
 /// Returns the test problem MinimalConvexCore: 18 balls of radius r = .01 m cover the 18 corners v_i of an ellipsoid
 /// (half axes .08, .2 and .3 m, center (0, 0, .5)). As many as possible of their centers x_i coincide.
@@ -17,4 +17,4 @@ namespace kinegraph {
 /// parabola with its vertex at 0 replaces it.
 std::shared_ptr<Nlp> makeMinimalConvexCore();
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline nlp_internal

@@ -3,7 +3,7 @@
 #include "kinegraph/common/errors.h"
 #include "kinegraph/common/text.h"
 
-namespace kinegraph {
+namespace kinegraph::inline nlp_internal {
 
 void prepareEvaluation(const Nlp& nlp, const VectorXd& x, VectorXd& phi, const Jacobian* J) {
   const auto rows = Eigen::Index(nlp.types().size());
@@ -16,4 +16,4 @@ void prepareEvaluation(const Nlp& nlp, const VectorXd& x, VectorXd& phi, const J
                          nlp.dimension(), ", the sizes of makeJacobian()"));
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline nlp_internal

@@ -2,7 +2,7 @@
 
 #include "kinegraph/nlp/evaluation_sizes.h"
 
-namespace kinegraph {
+namespace kinegraph::inline nlp_internal {
 
 FiniteDifferenceNlp::FiniteDifferenceNlp(Nlp& nlp, double step)
     : nlp_(nlp), step_(step), plus_(Eigen::Index(nlp.types().size())), minus_(plus_.size()) {
@@ -28,4 +28,4 @@ void FiniteDifferenceNlp::evaluate(const VectorXd& x, VectorXd& phi, Jacobian* J
   nlp_.evaluate(x, phi, nullptr);
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline nlp_internal

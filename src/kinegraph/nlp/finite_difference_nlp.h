@@ -2,7 +2,7 @@
 
 #include "kinegraph/nlp/nlp.h"
 
-namespace kinegraph {
+namespace kinegraph::inline nlp_internal {
 
 /// Replaces the Jacobian of a problem by central differences, and offers no Hessian. For problems without correct
 /// derivatives.
@@ -19,4 +19,4 @@ class FiniteDifferenceNlp final : public Nlp {
   VectorXd moved_, plus_, minus_;
 };
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline nlp_internal

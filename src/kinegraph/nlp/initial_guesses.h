@@ -4,7 +4,7 @@
 
 #include "kinegraph/math/pose.h"
 
-namespace kinegraph {
+namespace kinegraph::inline nlp_internal {
 
 /// Describes a point as an initial guess.
 enum class GuessKind {
@@ -25,4 +25,4 @@ class InitialGuesses {
   virtual std::optional<VectorXd> initialGuess(const VectorXd& x, int number) = 0;
 };
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline nlp_internal

@@ -4,7 +4,7 @@
 
 #include "kinegraph/nlp/nlp.h"
 
-namespace kinegraph {
+namespace kinegraph::inline nlp_internal {
 
 /// A problem that activates constraints while a solver runs (constraint generation). Inactive residuals reserve space
 /// for them.
@@ -31,4 +31,4 @@ class LazyConstraints {
   bool at_each_step_ = false;
 };
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline nlp_internal

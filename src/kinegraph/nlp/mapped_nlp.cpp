@@ -7,7 +7,7 @@
 #include "kinegraph/common/text.h"
 #include "kinegraph/nlp/evaluation_sizes.h"
 
-namespace kinegraph {
+namespace kinegraph::inline nlp_internal {
 
 namespace {
 
@@ -156,4 +156,4 @@ std::string MappedNlp::report(int verbose) const {
              " variables of: ", inner_->report(verbose));
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline nlp_internal

@@ -5,7 +5,7 @@
 
 #include "kinegraph/nlp/nlp.h"
 
-namespace kinegraph {
+namespace kinegraph::inline nlp_internal {
 
 /// x = M c + offset.
 struct LinearMap {
@@ -58,4 +58,4 @@ class MappedNlp final : public Nlp {
   mutable std::vector<double> row_;  ///< workspace: one dense row of the Jacobian
 };
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline nlp_internal

@@ -13,6 +13,11 @@
 #include "kinegraph/common/random.h"
 #include "kinegraph/math/pose.h"
 
+namespace kinegraph::inline nlp_internal {
+class InitialGuesses;
+class LazyConstraints;
+}
+
 namespace kinegraph {
 
 /// The kind of quantity that a residual or variable measures.
@@ -142,9 +147,6 @@ enum class Refinement {
   little,  ///< x is close to a point at which all constraints hold
   much,    ///< x is too far from such a point to continue from it
 };
-
-class InitialGuesses;
-class LazyConstraints;
 
 /// A nonlinear program: minimize  sum_f phi_i + sum_sos phi_i^2  subject to  phi_ineq <= 0,  phi_eq = 0,  lower <= x <=
 /// upper. Solvers depend on this interface only.

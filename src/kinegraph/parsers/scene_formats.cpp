@@ -1,11 +1,11 @@
 #include "kinegraph/parsers/scene_formats.h"
 
 #include "kinegraph/common/file_paths.h"
-#include "kinegraph/parsers/mjcf_reader.h"
-#include "kinegraph/parsers/urdf_reader.h"
-#include "kinegraph/parsers/xml.h"
+#include "kinegraph/parsers/mjcf/mjcf_reader.h"
+#include "kinegraph/parsers/urdf/urdf_reader.h"
+#include "kinegraph/parsers/xml/xml.h"
 
-namespace kinegraph {
+namespace kinegraph::inline parsers_internal {
 
 namespace {
 
@@ -29,4 +29,4 @@ const SceneFormat* sceneFormatOf(const std::string& file) {
   return nullptr;
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline parsers_internal

@@ -6,7 +6,7 @@
 
 #include "kinegraph/gfile/parser.h"
 
-namespace kinegraph {
+namespace kinegraph::inline parsers_internal {
 
 /// A scene file format other than `.g`. It is read as if it were a `.g` file with the same frames, so Include, Prefix
 /// and Edit work with it, and errors are reported at their positions in the file. Readers depend on texts and values
@@ -25,4 +25,4 @@ const std::vector<SceneFormat>& sceneFormats();
 /// The format of a file name, or null for the .g language.
 const SceneFormat* sceneFormatOf(const std::string& file);
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline parsers_internal

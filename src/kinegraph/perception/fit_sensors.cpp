@@ -10,7 +10,7 @@
 #include "kinegraph/geometry/shapes/cells.h"
 #include "kinegraph/perception/measured_depth.h"
 
-namespace kinegraph {
+namespace kinegraph::inline perception_internal {
 
 namespace {
 
@@ -350,4 +350,4 @@ void SensorFit::correct(Config& config) const {
   }
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline perception_internal

@@ -8,7 +8,7 @@
 #include "kinegraph/perception/pose_fit.h"
 #include "kinegraph/scene/config.h"
 
-namespace kinegraph {
+namespace kinegraph::inline perception_internal {
 
 /// Estimates the poses of cameras and the offsets of joints from depth images of a scene.
 ///
@@ -100,4 +100,4 @@ class SensorFit {
   VectorXd moved_;                    ///< of the sensors so far, as in their covariance
 };
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline perception_internal

@@ -7,7 +7,7 @@
 
 #include "kinegraph/perception/measured_depth.h"
 
-namespace kinegraph {
+namespace kinegraph::inline perception_internal {
 
 namespace {
 
@@ -125,4 +125,4 @@ std::size_t FreeDepth::levelFor(double pixels) const {
   return radius < level_.size() ? level_[radius] : free_.size();
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline perception_internal

@@ -8,7 +8,7 @@
 
 #include "kinegraph/perception/occupancy_map.h"
 
-namespace kinegraph {
+namespace kinegraph::inline perception_internal {
 
 /// A depth image of half the size. A pixel has the nearest depth of four, if the others are more than `jump` (m)
 /// farther, else that of the first one, so that thin things stay and noise does not make others thicker.
@@ -93,4 +93,4 @@ class FreeDepth {
   std::vector<std::uint8_t> level_;       ///< per number of pixels from the middle of the square
 };
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline perception_internal

@@ -4,7 +4,7 @@
 
 #include "kinegraph/geometry/distance/proximity.h"
 
-namespace kinegraph {
+namespace kinegraph::inline perception_internal {
 
 namespace {
 
@@ -53,4 +53,4 @@ double shareBehind(const ObservedView& view, const std::vector<KnownShape>& know
   return all > 0 ? double(behind) / all : 0.;
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline perception_internal

@@ -4,7 +4,7 @@
 
 #include "kinegraph/perception/occupancy_map.h"
 
-namespace kinegraph {
+namespace kinegraph::inline perception_internal {
 
 /// Whether a point is within a distance (m) of a shape.
 bool isWithin(const KnownShape& shape, const Vector3d& point, double distance);
@@ -13,4 +13,4 @@ bool isWithin(const KnownShape& shape, const Vector3d& point, double distance);
 /// of the shapes, is wrong. Meshes, which may be hollow, and a shape around the camera do not count.
 double shareBehind(const ObservedView& view, const std::vector<KnownShape>& known);
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline perception_internal

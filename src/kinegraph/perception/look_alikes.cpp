@@ -5,7 +5,7 @@
 #include <limits>
 #include <optional>
 
-namespace kinegraph {
+namespace kinegraph::inline perception_internal {
 
 namespace {
 
@@ -233,4 +233,4 @@ std::vector<std::vector<int>> tellApart(std::vector<Thing>& things, const Regist
   return may_be;
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline perception_internal

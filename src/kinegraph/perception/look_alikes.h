@@ -4,7 +4,7 @@
 
 #include "kinegraph/perception/registration.h"
 
-namespace kinegraph {
+namespace kinegraph::inline perception_internal {
 
 /// Tells things that look alike apart, by the distances of the points and of the last poses. Equal things had to move
 /// least, in sum. Changes the poses of `things` and the entries of `is_seen`. `anywhere`: a thing may be at the place
@@ -16,4 +16,4 @@ namespace kinegraph {
 std::vector<std::vector<int>> tellApart(std::vector<Thing>& things, const Registration& registration, bool anywhere,
                                         std::vector<bool>& is_seen, std::vector<std::pair<int, int>>& unclear);
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline perception_internal

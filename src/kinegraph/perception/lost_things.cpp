@@ -3,7 +3,7 @@
 
 #include "kinegraph/perception/registration.h"
 
-namespace kinegraph {
+namespace kinegraph::inline perception_internal {
 
 namespace {
 
@@ -191,4 +191,4 @@ void Registration::findLost() {
   separate();
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline perception_internal

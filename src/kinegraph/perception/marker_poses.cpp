@@ -3,7 +3,7 @@
 #include <Eigen/Dense>
 #include <cmath>
 
-namespace kinegraph {
+namespace kinegraph::inline perception_internal {
 
 namespace {
 
@@ -80,4 +80,4 @@ std::optional<LinearCalibration> linearCalibration(const std::vector<RigidTransf
   return result;
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline perception_internal

@@ -4,7 +4,7 @@
 
 #include "kinegraph/perception/calibrate_camera.h"
 
-namespace kinegraph {
+namespace kinegraph::inline perception_internal {
 
 /// The pose of a marker with points in the plane z = 0 in the frame of the camera, from the homography of its points;
 /// none for fewer than four points, or if they are on a line.
@@ -18,4 +18,4 @@ struct LinearCalibration {
 /// points are not in the plane z = 0, or for too few images.
 std::optional<LinearCalibration> linearCalibration(const std::vector<RigidTransform>& arms, const MarkerImages& images);
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline perception_internal

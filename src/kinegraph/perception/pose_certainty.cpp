@@ -5,7 +5,7 @@
 
 #include <Eigen/Eigenvalues>
 
-namespace kinegraph {
+namespace kinegraph::inline perception_internal {
 
 namespace {
 
@@ -120,4 +120,4 @@ PoseCertainty poseCertainty(const VisibleShape& shape, const PoseFreedom& freedo
   return certainty;
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline perception_internal

@@ -2,7 +2,7 @@
 
 #include "kinegraph/perception/pose_fit.h"
 
-namespace kinegraph {
+namespace kinegraph::inline perception_internal {
 
 /// How well images determine a pose; both as in SeenFrame.
 struct PoseCertainty {
@@ -18,4 +18,4 @@ PoseCertainty poseCertainty(const VisibleShape& shape, const PoseFreedom& freedo
                             const std::vector<ObservedPoint>& points, int thinning,
                             const std::vector<ObservedView>& views, const RigidTransform& X);
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline perception_internal

@@ -5,7 +5,7 @@
 
 #include <Eigen/Cholesky>
 
-namespace kinegraph {
+namespace kinegraph::inline perception_internal {
 
 namespace {
 
@@ -239,4 +239,4 @@ SurfaceCounts countSurface(const VisibleShape& shape, const RigidTransform& X, c
   return counts;
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline perception_internal

@@ -6,7 +6,7 @@
 #include "kinegraph/perception/occupancy_map.h"
 #include "kinegraph/perception/visible_shape.h"
 
-namespace kinegraph {
+namespace kinegraph::inline perception_internal {
 
 using Matrix6d = Eigen::Matrix<double, 6, 6>;
 
@@ -65,4 +65,4 @@ struct SurfaceCounts {
 SurfaceCounts countSurface(const VisibleShape& shape, const RigidTransform& X, const std::vector<ObservedView>& views,
                            int samples, bool alone = false);
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline perception_internal

@@ -3,7 +3,7 @@
 
 #include "kinegraph/perception/registration.h"
 
-namespace kinegraph {
+namespace kinegraph::inline perception_internal {
 
 namespace {
 
@@ -91,4 +91,4 @@ void Registration::tryStarts(const Thing& thing, int index, const std::vector<in
   }
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline perception_internal

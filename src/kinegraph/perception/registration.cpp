@@ -6,7 +6,7 @@
 
 #include <Eigen/Cholesky>
 
-namespace kinegraph {
+namespace kinegraph::inline perception_internal {
 
 namespace {
 
@@ -381,4 +381,4 @@ PoseCandidate Registration::atPlaceOf(const Thing& thing, const Thing& other) co
   return best;
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline perception_internal

@@ -6,7 +6,7 @@
 
 #include "kinegraph/perception/pose_fit.h"
 
-namespace kinegraph {
+namespace kinegraph::inline perception_internal {
 
 inline constexpr int kCoarsePoints = 150, kFinePoints = 500;    // of a fit
 inline constexpr int kCoarseSamples = 150, kFineSamples = 300;  // of a surface
@@ -114,4 +114,4 @@ class Registration {
   const std::vector<ObservedPoint>& points_;
 };
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline perception_internal

@@ -8,7 +8,7 @@
 #include "kinegraph/perception/occupancy_map.h"
 #include "kinegraph/perception/pose_fit.h"
 
-namespace kinegraph {
+namespace kinegraph::inline perception_internal {
 
 namespace {
 
@@ -111,4 +111,4 @@ double heightOfPlace(const VisibleShape& shape, const RigidTransform& last, cons
   return *std::ranges::min_element(heights, {}, [&](double height) { return std::abs(height - bottom); });
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline perception_internal

@@ -6,7 +6,7 @@
 #include "kinegraph/perception/visible_shape.h"
 #include "kinegraph/scene/config.h"
 
-namespace kinegraph {
+namespace kinegraph::inline perception_internal {
 
 /// The shapes of a frame without the things on it: its children, if it has a shape itself. A robot may be fixed to a
 /// table.
@@ -24,4 +24,4 @@ std::vector<double> heightsUnder(const Config& config, const Frame& thing, const
 /// The one of the heights at which a thing rests in its last pose, m.
 double heightOfPlace(const VisibleShape& shape, const RigidTransform& last, const std::vector<double>& heights);
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline perception_internal

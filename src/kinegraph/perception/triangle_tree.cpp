@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace kinegraph {
+namespace kinegraph::inline perception_internal {
 
 namespace {
 
@@ -96,4 +96,4 @@ SurfaceDistance TriangleTree::nearest(const Vector3d& point, const Vector3d* eye
   return best;
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline perception_internal

@@ -4,7 +4,7 @@
 
 #include "kinegraph/perception/visible_shape.h"
 
-namespace kinegraph {
+namespace kinegraph::inline perception_internal {
 
 /// Triangles in a binary tree of bounding spheres, for the distance of points. Local coordinates.
 struct TriangleTree {
@@ -29,4 +29,4 @@ struct TriangleTree {
   int build(std::vector<int>& order, int first, int last);
 };
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline perception_internal

@@ -15,7 +15,7 @@
 #include "kinegraph/rendering/shown_shapes.h"
 #include "kinegraph/scene/tree/visual_meshes.h"
 
-namespace kinegraph {
+namespace kinegraph::inline perception_internal {
 
 namespace {
 
@@ -366,4 +366,4 @@ void VisibleShape::findRestingDirections() {
   }
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline perception_internal

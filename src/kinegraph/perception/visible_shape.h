@@ -7,7 +7,7 @@
 
 #include "kinegraph/scene/frame.h"
 
-namespace kinegraph {
+namespace kinegraph::inline perception_internal {
 
 struct TriangleTree;
 
@@ -79,4 +79,4 @@ class VisibleShape {
   double radius_ = 0.;
 };
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline perception_internal

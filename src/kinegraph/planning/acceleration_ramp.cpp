@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace kinegraph {
+namespace kinegraph::inline planning_internal {
 
 namespace {
 
@@ -78,4 +78,4 @@ std::vector<VectorXd> bernsteinOf(const PathCurve& curve, int piece) {
   return points;
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline planning_internal

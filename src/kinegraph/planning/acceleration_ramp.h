@@ -3,7 +3,7 @@
 #include "kinegraph/trajectories/path_curve.h"
 #include "kinegraph/trajectories/scaling_grid.h"
 
-namespace kinegraph {
+namespace kinegraph::inline planning_internal {
 
 /// A segment on which all accelerations go to zero, each at its own constant jerk.
 struct AccelerationRamp {
@@ -20,4 +20,4 @@ AccelerationRamp rampDown(const VectorXd& q, const VectorXd& velocity, const Vec
 /// Returns the Bernstein coefficients of a piece of a curve; the piece lies in their convex hull.
 std::vector<VectorXd> bernsteinOf(const PathCurve& curve, int piece);
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline planning_internal

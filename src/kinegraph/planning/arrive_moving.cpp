@@ -10,7 +10,7 @@
 #include "kinegraph/planning/steering/joint_space.h"
 #include "kinegraph/trajectories/curve_part.h"
 
-namespace kinegraph {
+namespace kinegraph::inline planning_internal {
 
 namespace {
 
@@ -165,4 +165,4 @@ std::optional<MotionPlan> arriveMoving(const Config& config, const MotionPlan& a
   return Arrival(config, at_rest, options, cancellation).run();
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline planning_internal

@@ -6,7 +6,7 @@
 #include "kinegraph/planning/motion_plan.h"
 #include "kinegraph/scene/config.h"
 
-namespace kinegraph {
+namespace kinegraph::inline planning_internal {
 
 /// Bends the end of a motion that planMotion found from rest to rest, so that it ends with options.end_velocity and
 /// end_acceleration (zero if empty). Its last line leads to a point before the goal instead, against the end velocity,
@@ -16,4 +16,4 @@ namespace kinegraph {
 std::optional<MotionPlan> arriveMoving(const Config& config, const MotionPlan& at_rest, const PlanOptions& options,
                                        const CancellationToken& cancellation);
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline planning_internal

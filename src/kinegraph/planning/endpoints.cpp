@@ -8,7 +8,7 @@
 #include "kinegraph/common/text.h"
 #include "kinegraph/kinematics/unit_guesses.h"
 
-namespace kinegraph {
+namespace kinegraph::inline planning_internal {
 
 namespace {
 
@@ -149,4 +149,4 @@ std::string describeObstacles(const std::vector<MetObstacle>& obstacles) {
   return join(parts);
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline planning_internal

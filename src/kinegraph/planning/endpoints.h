@@ -6,7 +6,7 @@
 #include "kinegraph/planning/motion_plan.h"
 #include "kinegraph/planning/steering/steering.h"
 
-namespace kinegraph {
+namespace kinegraph::inline planning_internal {
 
 /// A start or goal of a motion, and whether it is valid.
 struct Endpoint {
@@ -47,4 +47,4 @@ std::string describeObstacles(const std::vector<MetObstacle>& obstacles);
 /// "12 mm", "3.4 um", "1.5 m"
 std::string formatLength(double length);
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline planning_internal

@@ -9,7 +9,7 @@
 #include "kinegraph/common/text.h"
 #include "kinegraph/planning/endpoints.h"
 
-namespace kinegraph {
+namespace kinegraph::inline planning_internal {
 
 namespace {
 
@@ -277,4 +277,4 @@ std::string proveInfeasible(const State& scene, const VectorXd& start, const std
   return "";
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline planning_internal

@@ -7,7 +7,7 @@
 #include "kinegraph/planning/search/path_search.h"
 #include "kinegraph/planning/steering/clearance_check.h"
 
-namespace kinegraph {
+namespace kinegraph::inline planning_internal {
 
 /// Tries to prove that there is no path from the start to a goal. Returns the proof as a sentence, or "" if there is
 /// none, which does not mean that there is a path.
@@ -22,4 +22,4 @@ namespace kinegraph {
 std::string proveInfeasible(const State& scene, const VectorXd& start, const std::vector<VectorXd>& goals,
                             double margin, const CancellationToken& cancellation = {});
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline planning_internal

@@ -11,11 +11,17 @@
 #include "kinegraph/trajectories/retime.h"
 #include "kinegraph/trajectories/trajectory.h"
 
-namespace kinegraph {
+namespace kinegraph::inline kinematics_internal {
+class State;
+}
 
+namespace kinegraph::inline planning_internal {
 class DynamicScene;
 class JointSpace;
-class State;
+}
+
+namespace kinegraph {
+
 /// How planMotion ended.
 enum class PlanStatus {
   solved,            ///< the motion is continuously collision-free

@@ -7,7 +7,7 @@
 #include "kinegraph/common/text.h"
 #include "kinegraph/scene/tree/scene_tree.h"
 
-namespace kinegraph {
+namespace kinegraph::inline planning_internal {
 
 Config onlyPairs(const Config& config, const std::vector<std::pair<std::string, std::string>>& pairs, const char* who) {
   Config copy(config);
@@ -45,4 +45,4 @@ Config withoutPairs(const Config& config, const std::vector<std::pair<int, int>>
   return copy;
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline planning_internal

@@ -6,7 +6,7 @@
 
 #include "kinegraph/scene/config.h"
 
-namespace kinegraph {
+namespace kinegraph::inline planning_internal {
 
 /// Copies a scene so that only these pairs of frames may collide, whatever their contact flags are. Throws
 /// FrameNotFound, and ValueError for frames without a shape; `who` names the caller.
@@ -15,4 +15,4 @@ Config onlyPairs(const Config& config, const std::vector<std::pair<std::string, 
 /// Copies a scene so that these pairs of frames (ids) do not collide.
 Config withoutPairs(const Config& config, const std::vector<std::pair<int, int>>& pairs);
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline planning_internal

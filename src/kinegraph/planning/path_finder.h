@@ -10,10 +10,15 @@
 #include "kinegraph/scene/config.h"
 #include "kinegraph/solvers/interface/result.h"
 
-namespace kinegraph {
-
-class JointSpace;
+namespace kinegraph::inline kinematics_internal {
 class State;
+}
+
+namespace kinegraph::inline planning_internal {
+class JointSpace;
+}
+
+namespace kinegraph {
 
 /// Settings of a PathFinder, with the names of the reference package.
 struct PathFinderOptions {

@@ -7,7 +7,7 @@
 #include "kinegraph/planning/plan_timing.h"
 #include "kinegraph/scene/tree/scene_tree.h"
 
-namespace kinegraph {
+namespace kinegraph::inline planning_internal {
 
 namespace {
 
@@ -224,4 +224,4 @@ MotionPlan planAmongObstacles(const Config& config, const MotionGoal& goal, cons
   return PlanAmongObstacles(config, goal, options, start, cancellation, known).run();
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline planning_internal

@@ -3,7 +3,7 @@
 #include "kinegraph/common/cancellation.h"
 #include "kinegraph/planning/plan_from_velocity.h"
 
-namespace kinegraph {
+namespace kinegraph::inline planning_internal {
 
 /// planMotion among the dynamic obstacles of options.obstacle_trajectories.
 ///
@@ -15,4 +15,4 @@ namespace kinegraph {
 MotionPlan planAmongObstacles(const Config& config, const MotionGoal& goal, const PlanOptions& options,
                               const VectorXd& start, const CancellationToken& cancellation, const KnownCurves& known);
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline planning_internal

@@ -9,7 +9,7 @@
 #include "kinegraph/planning/planner.h"
 #include "kinegraph/trajectories/curve_part.h"
 
-namespace kinegraph {
+namespace kinegraph::inline planning_internal {
 
 namespace {
 
@@ -328,4 +328,4 @@ MotionPlan planFromVelocity(const Config& config, const MotionGoal& goal, const 
   return PlanFromVelocity(config, goal, options, start, cancellation).run(known);
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline planning_internal

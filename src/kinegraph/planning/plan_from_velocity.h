@@ -6,7 +6,7 @@
 #include "kinegraph/trajectories/path_curve.h"
 #include "kinegraph/trajectories/time_scaling.h"
 
-namespace kinegraph {
+namespace kinegraph::inline planning_internal {
 
 /// Known continuations of a running motion: curves that begin at the robot's configuration in the direction of its
 /// velocity.
@@ -36,4 +36,4 @@ MotionPlan planFromVelocity(const Config& config, const MotionGoal& goal, const 
                             const VectorXd& start, const CancellationToken& cancellation,
                             const KnownCurves& known = {});
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline planning_internal

@@ -7,7 +7,7 @@
 #include "kinegraph/ik/ik_problem.h"
 #include "kinegraph/kinematics/kinematic_model.h"
 
-namespace kinegraph {
+namespace kinegraph::inline planning_internal {
 
 namespace {
 
@@ -139,4 +139,4 @@ GoalConfigurations goalConfigurations(const Config& config, const MotionGoal& go
   return GoalFinder(config, start, steering, options, cancellation).of(goal);
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline planning_internal

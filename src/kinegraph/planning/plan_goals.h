@@ -6,7 +6,7 @@
 #include "kinegraph/planning/search/path_search.h"
 #include "kinegraph/scene/config.h"
 
-namespace kinegraph {
+namespace kinegraph::inline planning_internal {
 
 /// The configurations of a goal.
 struct GoalConfigurations {
@@ -22,4 +22,4 @@ GoalConfigurations goalConfigurations(const Config& config, const MotionGoal& go
                                       Steering& steering, const PlanOptions& options,
                                       const CancellationToken& cancellation);
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline planning_internal

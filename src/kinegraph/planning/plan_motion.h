@@ -7,6 +7,10 @@
 #include "kinegraph/planning/plan_options.h"
 #include "kinegraph/scene/config.h"
 
+namespace kinegraph::inline planning_internal {
+class Planner;
+}
+
 namespace kinegraph {
 
 /// Plans a collision-free, time-parameterized motion from the start (none: the Config's q) to a goal.
@@ -28,8 +32,6 @@ namespace kinegraph {
 /// options.obstacle_trajectories, the timing avoids dynamic obstacles and waits if necessary (planAmongObstacles).
 MotionPlan planMotion(const Config& config, const MotionGoal& goal, const PlanOptions& options = {},
                       const std::optional<VectorXd>& start = std::nullopt, const CancellationToken& cancellation = {});
-
-class Planner;
 
 /// A sequence of improving motions: the first is that of planMotion; each further one is shorter or takes less time
 /// than the one before, as options.optimize says.

@@ -8,7 +8,7 @@
 #include "kinegraph/scene/dynamics.h"
 #include "kinegraph/trajectories/curve_part.h"
 
-namespace kinegraph {
+namespace kinegraph::inline planning_internal {
 
 namespace {
 
@@ -96,4 +96,4 @@ TimedPath timeMotion(Steering& steering, const MatrixXd& path, const MotionLimit
   return retime(path, limits, options);
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline planning_internal

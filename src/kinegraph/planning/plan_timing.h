@@ -7,7 +7,7 @@
 #include "kinegraph/trajectories/retime.h"
 #include "kinegraph/trajectories/time_scaling.h"
 
-namespace kinegraph {
+namespace kinegraph::inline planning_internal {
 
 /// The limits of |dq/dt|, |d2q/dt2| and |d3q/dt3| per dof. Defaults: the velocities of the model, or 1 rad/s or m/s if
 /// it has none, and accelerations that reach them in a quarter of a second.
@@ -31,4 +31,4 @@ TimedPath concatenated(const TimedPath& first, const TimedPath& second);
 /// The fastest motion along a path. Rounds corners if that keeps the margins and constraints, and stops at others.
 TimedPath timeMotion(Steering& steering, const MatrixXd& path, const MotionLimits& limits, double blend);
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline planning_internal

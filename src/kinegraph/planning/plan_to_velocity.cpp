@@ -14,7 +14,7 @@
 #include "kinegraph/planning/steering/joint_space.h"
 #include "kinegraph/trajectories/curve_part.h"
 
-namespace kinegraph {
+namespace kinegraph::inline planning_internal {
 
 namespace {
 
@@ -99,4 +99,4 @@ MotionPlan planToVelocity(const Config& config, const MotionGoal& goal, const Pl
   return failed;
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline planning_internal

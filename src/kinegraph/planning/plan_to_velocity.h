@@ -4,7 +4,7 @@
 #include "kinegraph/planning/motion_plan.h"
 #include "kinegraph/scene/config.h"
 
-namespace kinegraph {
+namespace kinegraph::inline planning_internal {
 
 /// planMotion among static obstacles from rest to options.end_velocity (not zero) and end_acceleration. The end of a
 /// motion to rest is bent (arriveMoving). If that cannot be, it is planFromVelocity from the goal with the opposite
@@ -13,4 +13,4 @@ namespace kinegraph {
 MotionPlan planToVelocity(const Config& config, const MotionGoal& goal, const PlanOptions& options,
                           const VectorXd& start, const CancellationToken& cancellation);
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline planning_internal

@@ -8,7 +8,7 @@
 #include "kinegraph/planning/retreat_motion.h"
 #include "kinegraph/planning/smooth_motion.h"
 
-namespace kinegraph {
+namespace kinegraph::inline planning_internal {
 
 namespace {
 
@@ -389,4 +389,4 @@ MotionPlan planFromRest(const Config& config, const MotionGoal& goal, const Plan
   return plan;
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline planning_internal

@@ -9,7 +9,7 @@
 #include "kinegraph/planning/smoothing/improve_path.h"
 #include "kinegraph/scene/config.h"
 
-namespace kinegraph {
+namespace kinegraph::inline planning_internal {
 
 /// planMotion from a start at rest among static obstacles: its stages in turn, and the search for better motions.
 ///
@@ -93,4 +93,4 @@ class Planner {
 MotionPlan planFromRest(const Config& config, const MotionGoal& goal, const PlanOptions& options, const VectorXd& start,
                         const CancellationToken& cancellation);
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline planning_internal

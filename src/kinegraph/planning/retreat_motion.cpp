@@ -7,7 +7,7 @@
 #include "kinegraph/planning/pair_choice.h"
 #include "kinegraph/planning/steering/pair_gradient.h"
 
-namespace kinegraph {
+namespace kinegraph::inline planning_internal {
 
 namespace {
 
@@ -88,4 +88,4 @@ std::optional<VectorXd> retreatFromContact(const Config& config, Steering& steer
   return std::nullopt;
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline planning_internal

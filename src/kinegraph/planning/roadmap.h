@@ -10,11 +10,16 @@
 #include "kinegraph/common/random.h"
 #include "kinegraph/scene/config.h"
 
-namespace kinegraph {
-
-class JointSpace;
+namespace kinegraph::inline kinematics_internal {
 class State;
+}
+
+namespace kinegraph::inline planning_internal {
+class JointSpace;
 class Steering;
+}
+
+namespace kinegraph {
 
 /// The answer of Roadmap::findPath.
 struct RoadmapPath {

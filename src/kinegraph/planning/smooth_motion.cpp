@@ -7,7 +7,7 @@
 #include "kinegraph/planning/plan_timing.h"
 #include "kinegraph/solvers/nlp_solver.h"
 
-namespace kinegraph {
+namespace kinegraph::inline planning_internal {
 
 namespace {
 
@@ -83,4 +83,4 @@ std::optional<SmoothedMotion> smoothMotion(const Config& config, Steering& steer
   return SmoothedMotion{path, std::move(timed)};
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline planning_internal

@@ -8,7 +8,7 @@
 #include "kinegraph/scene/config.h"
 #include "kinegraph/trajectories/retime.h"
 
-namespace kinegraph {
+namespace kinegraph::inline planning_internal {
 
 /// A motion smoothed by KOMO.
 struct SmoothedMotion {
@@ -25,4 +25,4 @@ std::optional<SmoothedMotion> smoothMotion(const Config& config, Steering& steer
                                            const MotionLimits& limits, double margin, int slices,
                                            const CancellationToken& cancellation);
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline planning_internal

@@ -143,8 +143,8 @@ std::string UnseenPlace::str() const {
              depth, " m (", cells.size(), " cells)");
 }
 
-std::optional<UnseenPlace> findUnseenPlace(const Config& config, double margin,
-                                           const std::function<MotionPlan(const Config&)>& plan_in) {
+std::optional<UnseenPlace> planning_internal::findUnseenPlace(const Config& config, double margin,
+                                                              const std::function<MotionPlan(const Config&)>& plan_in) {
   std::vector<Frame> maps;
   for (const Frame& frame : config.getFrames()) {
     if (hasUnseen(frame)) maps.push_back(frame);

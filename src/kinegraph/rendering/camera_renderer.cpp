@@ -8,7 +8,7 @@
 #include "kinegraph/geometry/shapes/shape_kinds.h"
 #include "kinegraph/kinematics/kinematic_model.h"
 #include "kinegraph/kinematics/state.h"
-#include "kinegraph/rendering/gl_context.h"
+#include "kinegraph/rendering/gl/gl_context.h"
 #include "kinegraph/rendering/letters.h"
 #include "kinegraph/rendering/mesh_library.h"
 #include "kinegraph/rendering/shown_shapes.h"

@@ -10,6 +10,10 @@
 #include "kinegraph/scene/config.h"
 #include "kinegraph/scene/frame.h"
 
+namespace kinegraph::inline rendering_internal {
+struct Letters;
+}
+
 namespace kinegraph {
 
 /// An image of a camera. Rows run from top to bottom.
@@ -62,8 +66,6 @@ std::optional<ShownBall> shownBall(const Config& config);
 /// Returns the camera, moved along its line of sight so that the visible scene just fills the image, with a suitable
 /// range. Returns it unchanged for an empty scene.
 Camera fitted(Camera camera, const Config& config);
-
-struct Letters;
 
 /// Settings of rendered images. The defaults are those of a sensor: fast.
 struct RendererOptions {

@@ -4,7 +4,7 @@
 
 #include "kinegraph/common/utf8.h"
 
-namespace kinegraph {
+namespace kinegraph::inline rendering_internal {
 
 namespace {
 
@@ -90,4 +90,4 @@ void drawLabel(std::vector<std::uint8_t>& rgb, int width, const Letters& letters
   drawPanel(rgb, width, letters, {.left = left, .top = top, .besides = kBesidesLabel, .above = 0});
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline rendering_internal

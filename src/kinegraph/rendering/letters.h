@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-namespace kinegraph {
+namespace kinegraph::inline rendering_internal {
 
 /// A rendered text: the coverage of each pixel by letters, 0 to 255. Rows run from top to bottom.
 struct Letters {
@@ -23,4 +23,4 @@ void drawLetters(std::vector<std::uint8_t>& rgb, int width, const Letters& lette
 /// Draws letters with their center at a pixel, dark on a light panel like labels on pages. Parts outside are clipped.
 void drawLabel(std::vector<std::uint8_t>& rgb, int width, const Letters& letters, int column, int row);
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline rendering_internal

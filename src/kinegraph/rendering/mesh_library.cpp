@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-namespace kinegraph {
+namespace kinegraph::inline rendering_internal {
 
 namespace {
 
@@ -128,4 +128,4 @@ void MeshLibrary::fill(mjModel& model) {
   model.mat_texrepeat = ones_.data();
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline rendering_internal

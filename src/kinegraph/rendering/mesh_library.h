@@ -10,7 +10,7 @@
 #include "kinegraph/rendering/mujoco.h"
 #include "kinegraph/rendering/render_mesh.h"
 
-namespace kinegraph {
+namespace kinegraph::inline rendering_internal {
 
 /// The meshes and images of all shapes in a rendering context, in the arrays of a MuJoCo model. Mesh 0 is the floor.
 class MeshLibrary {
@@ -55,4 +55,4 @@ class MeshLibrary {
   std::vector<float> ones_;
 };
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline rendering_internal

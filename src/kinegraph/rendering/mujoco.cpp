@@ -5,7 +5,7 @@
 #include "kinegraph/common/errors.h"
 #include "kinegraph/common/text.h"
 
-namespace kinegraph {
+namespace kinegraph::inline rendering_internal {
 
 namespace {
 
@@ -59,4 +59,4 @@ MujocoModel emptyModel() {
   return model;
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline rendering_internal

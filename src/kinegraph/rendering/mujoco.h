@@ -6,7 +6,7 @@
 
 #include "kinegraph/common/dynamic_library.h"
 
-namespace kinegraph {
+namespace kinegraph::inline rendering_internal {
 
 // clang-format off
 # define KINEGRAPH_MUJOCO_FUNCTIONS(X) \
@@ -40,4 +40,4 @@ using MujocoModel = std::unique_ptr<mjModel, decltype(&mj_deleteModel)>;
 /// Returns an empty model, from which a rendering context is created.
 MujocoModel emptyModel();
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline rendering_internal

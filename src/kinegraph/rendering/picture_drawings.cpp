@@ -2,7 +2,7 @@
 
 #include <utility>
 
-namespace kinegraph {
+namespace kinegraph::inline rendering_internal {
 
 namespace {
 
@@ -40,4 +40,4 @@ PictureMesh imageMesh(Pixels pixels, double width, double height, double z) {
   return picture;
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline rendering_internal

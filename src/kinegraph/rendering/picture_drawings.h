@@ -9,7 +9,7 @@
 #include "kinegraph/math/pose.h"
 #include "kinegraph/rendering/picture_meshes.h"
 
-namespace kinegraph {
+namespace kinegraph::inline rendering_internal {
 
 /// A shape of a picture that belongs to no frame, such as an arrow that a program draws on the viewer's page.
 struct PictureDrawing {
@@ -34,4 +34,4 @@ PictureMesh pointsMesh(const std::vector<Vector3d>& points, const std::vector<Co
 /// Returns an image at z, its center at x = y = 0, x to the right and y down, seen from both sides. All in m.
 PictureMesh imageMesh(Pixels pixels, double width, double height, double z);
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline rendering_internal

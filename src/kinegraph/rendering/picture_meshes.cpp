@@ -5,7 +5,7 @@
 
 #include "kinegraph/rendering/render_mesh.h"
 
-namespace kinegraph {
+namespace kinegraph::inline rendering_internal {
 
 namespace {
 
@@ -238,4 +238,4 @@ PictureMesh markerMesh(double length) {
   return completed(std::move(picture));
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline rendering_internal

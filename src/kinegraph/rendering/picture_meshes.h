@@ -7,7 +7,7 @@
 #include "kinegraph/geometry/files/image_file.h"
 #include "kinegraph/geometry/shapes/geometry.h"
 
-namespace kinegraph {
+namespace kinegraph::inline rendering_internal {
 
 /// A shape in the layout of pictures: triangles with normals, or lines or points without shading.
 struct PictureMesh {
@@ -50,4 +50,4 @@ Vector3d linearColor(const Vector3d& rgb);
 /// Converts a color from a linear scale to sRGB.
 Vector3d encodedColor(const Vector3d& linear);
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline rendering_internal

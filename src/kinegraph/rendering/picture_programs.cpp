@@ -3,7 +3,7 @@
 #include "kinegraph/rendering/picture_pixel_shaders.h"
 #include "kinegraph/rendering/picture_shaders.h"
 
-namespace kinegraph {
+namespace kinegraph::inline rendering_internal {
 
 PictureProgram::PictureProgram(const char* vertex, std::initializer_list<std::string> fragment) : vertex_(vertex) {
   for (const std::string& part : fragment) fragment_ += part;
@@ -44,4 +44,4 @@ PicturePrograms::PicturePrograms(int number_of_lights)
                                            shaders::kBeforeSurfaces, shaders::kFloorFragment}),
       floor_depth(shaders::kFloorDepthVertex, {shaders::kDepthFragment}) {}
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline rendering_internal

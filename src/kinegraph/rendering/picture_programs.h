@@ -4,9 +4,9 @@
 #include <optional>
 #include <string>
 
-#include "kinegraph/rendering/gl_program.h"
+#include "kinegraph/rendering/gl/gl_program.h"
 
-namespace kinegraph {
+namespace kinegraph::inline rendering_internal {
 
 /// A program that is compiled at its first use.
 class PictureProgram {
@@ -42,4 +42,4 @@ struct PicturePrograms {
   PictureProgram floor_lines, floor_shadows, floor_before, floor_depth;
 };
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline rendering_internal

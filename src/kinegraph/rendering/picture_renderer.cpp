@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "kinegraph/common/text.h"
-#include "kinegraph/rendering/gl_frame.h"
+#include "kinegraph/rendering/gl/gl_frame.h"
 #include "kinegraph/rendering/picture_programs.h"
 #include "kinegraph/rendering/picture_view.h"
 #include "kinegraph/rendering/projection.h"

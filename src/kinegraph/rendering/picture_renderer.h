@@ -7,9 +7,11 @@
 #include "kinegraph/rendering/camera_renderer.h"
 #include "kinegraph/scene/config.h"
 
-namespace kinegraph {
-
+namespace kinegraph::inline rendering_internal {
 struct PictureDrawing;
+}
+
+namespace kinegraph {
 
 /// The appearance of pictures. The defaults are those of the viewer's page in daylight.
 struct PictureOptions {

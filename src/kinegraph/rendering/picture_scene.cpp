@@ -5,7 +5,7 @@
 #include "kinegraph/geometry/shapes/shape_kinds.h"
 #include "kinegraph/kinematics/state.h"
 
-namespace kinegraph {
+namespace kinegraph::inline rendering_internal {
 
 namespace {
 
@@ -87,4 +87,4 @@ PictureScene pictureScene(SceneTree& tree, VisualMeshes& visual_meshes, PictureS
   return scene;
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline rendering_internal

@@ -8,7 +8,7 @@
 #include "kinegraph/rendering/shown_shapes.h"
 #include "kinegraph/scene/tree/scene_tree.h"
 
-namespace kinegraph {
+namespace kinegraph::inline rendering_internal {
 
 /// A shape at its pose.
 struct PictureItem {
@@ -41,4 +41,4 @@ struct PictureScene {
 PictureScene pictureScene(SceneTree& tree, VisualMeshes& visual_meshes, PictureStore& store, bool visuals_only,
                           const std::vector<PictureDrawing>& drawings);
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline rendering_internal

@@ -6,7 +6,7 @@
 
 #include "kinegraph/geometry/files/image_file.h"
 
-namespace kinegraph {
+namespace kinegraph::inline rendering_internal {
 
 namespace {
 
@@ -184,4 +184,4 @@ void PictureStore::tidyTextures() {
   });
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline rendering_internal

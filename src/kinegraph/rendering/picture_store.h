@@ -7,10 +7,10 @@
 #include <string_view>
 #include <vector>
 
-#include "kinegraph/rendering/gl_functions.h"
+#include "kinegraph/rendering/gl/gl_functions.h"
 #include "kinegraph/rendering/picture_meshes.h"
 
-namespace kinegraph {
+namespace kinegraph::inline rendering_internal {
 
 /// A shape in the memory of the graphics card.
 struct StoredMesh {
@@ -58,4 +58,4 @@ class PictureStore {
   std::map<std::string, unsigned, std::less<>> textures_;  ///< by the bytes of their files
 };
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline rendering_internal

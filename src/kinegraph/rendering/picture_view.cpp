@@ -5,7 +5,7 @@
 
 #include "kinegraph/rendering/projection.h"
 
-namespace kinegraph {
+namespace kinegraph::inline rendering_internal {
 
 namespace {
 
@@ -101,4 +101,4 @@ FloorPart PictureView::wholeFloor(double height) const {
 
 FloorPart PictureView::linedFloor() const { return floorAround(kLinesReach * square(), floorHeight()); }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline rendering_internal

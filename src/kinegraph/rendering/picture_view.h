@@ -1,10 +1,10 @@
 #pragma once
 
-#include "kinegraph/rendering/gl_program.h"
+#include "kinegraph/rendering/gl/gl_program.h"
 #include "kinegraph/rendering/picture_renderer.h"
 #include "kinegraph/rendering/picture_scene.h"
 
-namespace kinegraph {
+namespace kinegraph::inline rendering_internal {
 
 /// A part of the floor: a parallelogram around its center.
 struct FloorPart {
@@ -46,4 +46,4 @@ struct PictureView {
   FloorPart floorAround(double half, double height) const;
 };
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline rendering_internal

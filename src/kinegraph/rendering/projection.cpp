@@ -1,6 +1,6 @@
 #include "kinegraph/rendering/projection.h"
 
-namespace kinegraph {
+namespace kinegraph::inline rendering_internal {
 
 namespace {
 
@@ -38,4 +38,4 @@ void depthToMeters(std::vector<float>& depth, const Camera& camera) {
   }
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline rendering_internal

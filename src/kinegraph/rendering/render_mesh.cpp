@@ -8,7 +8,7 @@
 
 #include "kinegraph/geometry/shapes/tessellation.h"
 
-namespace kinegraph {
+namespace kinegraph::inline rendering_internal {
 
 namespace {
 
@@ -200,4 +200,4 @@ std::vector<RenderMesh> renderMeshes(const Geometry& geometry) {
   return parts;
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline rendering_internal

@@ -4,7 +4,7 @@
 
 #include "kinegraph/geometry/shapes/geometry.h"
 
-namespace kinegraph {
+namespace kinegraph::inline rendering_internal {
 
 /// Triangles with one color or one image and with normals for shading, in the layout of graphics libraries.
 struct RenderMesh {
@@ -22,4 +22,4 @@ struct RenderMesh {
 /// become octahedra and lines (pairs of points) prisms, 2 mm in radius. Returns nothing for an empty shape.
 std::vector<RenderMesh> renderMeshes(const Geometry& geometry);
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline rendering_internal

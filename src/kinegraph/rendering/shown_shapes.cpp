@@ -2,7 +2,7 @@
 
 #include "kinegraph/geometry/shapes/shape_kinds.h"
 
-namespace kinegraph {
+namespace kinegraph::inline rendering_internal {
 
 bool servesCollisionsOnly(const Shape& shape) {
   constexpr double kFaint = .25;  // the same threshold as on the page
@@ -23,4 +23,4 @@ std::vector<ShownShape> shownShapes(const SceneTree& scene, VisualMeshes& visual
   return shapes;
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline rendering_internal

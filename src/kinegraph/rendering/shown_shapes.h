@@ -6,7 +6,7 @@
 #include "kinegraph/scene/tree/scene_tree.h"
 #include "kinegraph/scene/tree/visual_meshes.h"
 
-namespace kinegraph {
+namespace kinegraph::inline rendering_internal {
 
 /// A shape in a picture.
 struct ShownShape {
@@ -23,4 +23,4 @@ bool servesCollisionsOnly(const Shape& shape);
 /// shapes.
 std::vector<ShownShape> shownShapes(const SceneTree& scene, VisualMeshes& visual_meshes, bool visuals_only);
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline rendering_internal

@@ -6,7 +6,7 @@
 #include "kinegraph/rendering/picture_shaders.h"
 #include "kinegraph/rendering/projection.h"
 
-namespace kinegraph {
+namespace kinegraph::inline rendering_internal {
 
 namespace {
 
@@ -112,4 +112,4 @@ FloorPart SunShadows::shadedFloor(const PictureView& view) const {
           along({0., half.y(), 0., 0.}, 0.)};
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline rendering_internal

@@ -4,11 +4,11 @@
 #include <utility>
 #include <vector>
 
-#include "kinegraph/rendering/gl_frame.h"
-#include "kinegraph/rendering/gl_program.h"
+#include "kinegraph/rendering/gl/gl_frame.h"
+#include "kinegraph/rendering/gl/gl_program.h"
 #include "kinegraph/rendering/picture_view.h"
 
-namespace kinegraph {
+namespace kinegraph::inline rendering_internal {
 
 /// The depths that the sun sees, in a square map around the scene. Its context must be in use for all calls.
 class SunShadows {
@@ -41,4 +41,4 @@ class SunShadows {
   bool is_clear_ = false;
 };
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline rendering_internal

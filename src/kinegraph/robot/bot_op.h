@@ -11,13 +11,19 @@
 #include "kinegraph/common/cancellation.h"
 #include "kinegraph/robot/command_log.h"
 
+namespace kinegraph::inline api_internal {
+class BotCameras;
+}
+
+namespace kinegraph::inline robot_internal {
+struct SceneGripper;
+class RobotLoop;
+}
+
 namespace kinegraph {
 
 struct CameraImage;
-struct SceneGripper;
-class BotCameras;
 class BotOp;
-class RobotLoop;
 class ToolPath;
 class ToolPathPlan;
 struct ToolPathOptions;

@@ -3,6 +3,10 @@
 #include "kinegraph/robot/robot_driver.h"
 #include "kinegraph/simulation/simulation.h"
 
+namespace kinegraph::inline robot_internal {
+struct SceneGripper;
+}
+
 namespace kinegraph {
 
 /// A robot that follows its commands exactly, in a world without forces and contacts. An object that a gripper grasps
@@ -71,8 +75,6 @@ class RecordedDriver final : public RobotDriver {
   std::vector<std::string> stops_;
   int recoveries_ = 0;
 };
-
-struct SceneGripper;
 
 /// A robot in a simulated world with masses, contacts and friction. A gripper holds objects by force.
 class SimulatedDriver final : public RobotDriver, private SimulatedWorld {

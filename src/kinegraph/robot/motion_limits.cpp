@@ -7,7 +7,7 @@
 #include "kinegraph/common/guessed_units.h"
 #include "kinegraph/common/text.h"
 
-namespace kinegraph {
+namespace kinegraph::inline robot_internal {
 
 namespace {
 
@@ -208,4 +208,4 @@ std::optional<std::string> violatedEffort(const MotionStates& motion, const Robo
   return peaks.violation(robot, 0.);
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline robot_internal

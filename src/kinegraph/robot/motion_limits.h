@@ -5,7 +5,7 @@
 #include "kinegraph/robot/robot_driver.h"
 #include "kinegraph/trajectories/trajectory.h"
 
-namespace kinegraph {
+namespace kinegraph::inline robot_internal {
 
 /// The largest absolute velocity and acceleration of each dof of a motion, and their times (s); (n,) each.
 struct MotionPeaks {
@@ -37,4 +37,4 @@ std::optional<std::string> violatedEffort(const BSpline& motion, double from, do
 /// The same at the times of given states, at most about a thousand of them.
 std::optional<std::string> violatedEffort(const MotionStates& motion, const RobotInfo& robot, Config& model);
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline robot_internal

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace kinegraph {
+namespace kinegraph::inline robot_internal {
 
 namespace {
 
@@ -48,4 +48,4 @@ MatrixXd ReferenceMotion::eval(double time) const {
   return parts_[i].eval(time);
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline robot_internal

@@ -5,7 +5,7 @@
 
 #include "kinegraph/trajectories/trajectory.h"
 
-namespace kinegraph {
+namespace kinegraph::inline robot_internal {
 
 /// The reference of a robot over control time: the present motion, and those that follow it. Each motion ends the one
 /// before it when it begins. After its own end it stays at its last q, at rest.
@@ -50,4 +50,4 @@ class ReferenceMotion {
   std::vector<Part> parts_;
 };
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline robot_internal

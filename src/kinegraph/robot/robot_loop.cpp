@@ -9,7 +9,7 @@
 #include "kinegraph/robot/safety_limits.h"
 #include "kinegraph/scene/tree/scene_tree.h"
 
-namespace kinegraph {
+namespace kinegraph::inline robot_internal {
 
 namespace {
 
@@ -280,4 +280,4 @@ void RobotLoop::execute(const RecoverRobot&) {
   if (mode_ != LoopMode::fault) restAtState();
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline robot_internal

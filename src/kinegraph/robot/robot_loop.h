@@ -8,7 +8,7 @@
 #include "kinegraph/robot/reference_motion.h"
 #include "kinegraph/robot/robot_driver.h"
 
-namespace kinegraph {
+namespace kinegraph::inline robot_internal {
 
 /// Moves a robot in control periods: `step` writes the reference at the end of the period to the driver, within the
 /// robot's limits of position, velocity and acceleration, and reads the robot's state. A state with numbers that are
@@ -95,4 +95,4 @@ class RobotLoop {
   double floating_damping_ = 0.;
 };
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline robot_internal

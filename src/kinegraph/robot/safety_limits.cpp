@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace kinegraph {
+namespace kinegraph::inline robot_internal {
 
 namespace {
 
@@ -37,4 +37,4 @@ void limitCommand(RobotCommand& command, const VectorXd& last, const VectorXd& l
   }
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline robot_internal

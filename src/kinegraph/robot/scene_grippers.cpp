@@ -3,7 +3,7 @@
 #include "kinegraph/geometry/shapes/cells.h"
 #include "kinegraph/scene/tree/scene_tree.h"
 
-namespace kinegraph {
+namespace kinegraph::inline robot_internal {
 
 namespace {
 
@@ -113,4 +113,4 @@ Frame headOfLink(const Frame& frame) {
   return Frame(frame.scene(), *head);
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline robot_internal

@@ -3,7 +3,7 @@
 #include "kinegraph/robot/robot_driver.h"
 #include "kinegraph/scene/hand_fingers.h"
 
-namespace kinegraph {
+namespace kinegraph::inline robot_internal {
 
 /// A gripper of a scene: an inactive joint, and the joints that mimic it (the fingers).
 struct SceneGripper {
@@ -30,4 +30,4 @@ int copyNewFrames(const Config& from, Config& to);
 /// Returns the first frame of the link: the topmost one without a joint in between.
 Frame headOfLink(const Frame& frame);
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline robot_internal

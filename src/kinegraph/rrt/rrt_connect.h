@@ -8,7 +8,7 @@
 #include "kinegraph/rrt/search_space.h"
 #include "kinegraph/rrt/search_tree.h"
 
-namespace kinegraph {
+namespace kinegraph::inline rrt_internal {
 
 struct RrtConnectOptions {
   double range = 1.;           ///< longest edge of an extension, in the distance of the space
@@ -164,4 +164,4 @@ class RrtConnect {
   int start_ = 0, goal_ = 0;
 };
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline rrt_internal

@@ -7,7 +7,7 @@
 #include "kinegraph/common/random.h"
 #include "kinegraph/math/pose.h"
 
-namespace kinegraph {
+namespace kinegraph::inline rrt_internal {
 
 /// The configurations that an extension of a tree adds, each reached by a straight edge from the one before.
 struct Extension {
@@ -43,4 +43,4 @@ concept SearchSpace = requires(Space& space, Rng& rng, const VectorXd& q, Vector
   { space.evaluations() } -> std::convertible_to<long>;
 };
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline rrt_internal

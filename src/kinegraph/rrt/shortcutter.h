@@ -6,7 +6,7 @@
 #include "kinegraph/common/cancellation.h"
 #include "kinegraph/rrt/search_space.h"
 
-namespace kinegraph {
+namespace kinegraph::inline rrt_internal {
 
 struct ShortcutOptions {
   VectorXd weight = {};    ///< per dof, of the weighted length that is reduced; empty: ones
@@ -165,4 +165,4 @@ class Shortcutter {
   Rng rng_;
 };
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline rrt_internal

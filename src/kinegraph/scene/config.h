@@ -14,14 +14,17 @@
 #include "kinegraph/scene/frame.h"
 #include "kinegraph/scene/loading/file_options.h"
 
+namespace kinegraph::inline kinematics_internal {
+class State;
+struct KinematicModel;
+struct Parameters;
+}
+
 namespace kinegraph {
 
 class ConfigViewer;
 class FeatureSource;
-class State;
 struct Evaluation;
-struct KinematicModel;
-struct Parameters;
 
 /// A scene as a person edits it: named frames with joints, shapes and masses, and the joint vector q.
 /// Copies are deep. Derived data (world poses, the compiled KinematicModel) is updated automatically. Frames of a const

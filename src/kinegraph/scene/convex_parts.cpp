@@ -13,7 +13,7 @@
 #include "kinegraph/geometry/shapes/shape_types.h"
 #include "kinegraph/scene/tree/scene_tree.h"
 
-namespace kinegraph {
+namespace kinegraph::inline scene_internal {
 
 namespace {
 
@@ -188,4 +188,4 @@ Frame addH5Object(Config& config, const std::string& name, const std::string& pa
   return base;
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline scene_internal

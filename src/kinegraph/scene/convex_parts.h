@@ -6,7 +6,7 @@
 #include "kinegraph/scene/config.h"
 #include "kinegraph/scene/tree/scene_tree.h"
 
-namespace kinegraph {
+namespace kinegraph::inline scene_internal {
 
 /// Splits a mesh into its convex parts, each with its own vertices and triangles: the parts listed in the mesh, or else
 /// the connected components of its triangles. Empty parts have no vertices.
@@ -31,4 +31,4 @@ std::vector<Vector3d> shrunkHull(const Mesh& hull, double distance);
 /// FileError; the configuration is then unchanged.
 Frame addH5Object(Config& config, const std::string& name, const std::string& path);
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline scene_internal

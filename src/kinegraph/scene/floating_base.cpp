@@ -5,7 +5,7 @@
 #include "kinegraph/scene/config.h"
 #include "kinegraph/scene/tree/scene_tree.h"
 
-namespace kinegraph {
+namespace kinegraph::inline scene_internal {
 
 void checkFloatingRoot(const SceneTree& scene, const std::string& path) {
   const FrameData* root = nullptr;
@@ -30,4 +30,4 @@ void makeFloating(Frame frame, const std::string& prefix) {
   Frame(scene, *root).setParent(Frame(scene, world)).setJoint(JointType::free);
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline scene_internal

@@ -10,7 +10,7 @@
 #include "kinegraph/geometry/shapes/shape_kinds.h"
 #include "kinegraph/scene/tree/scene_tree.h"
 
-namespace kinegraph {
+namespace kinegraph::inline scene_internal {
 
 namespace {
 
@@ -230,4 +230,4 @@ std::vector<HandFingers> handFingersOf(const Config& C) {
   return hands;
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline scene_internal

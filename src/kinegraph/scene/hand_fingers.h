@@ -5,7 +5,7 @@
 
 #include "kinegraph/scene/config.h"
 
-namespace kinegraph {
+namespace kinegraph::inline scene_internal {
 
 /// The fingers of a hand: an inactive joint, and the joints that mimic it. Whatever moves the fingers, `width` is the
 /// opening between them in m: the distance between the colliding shapes of the two links that move the most against
@@ -37,4 +37,4 @@ struct HandFingers {
 /// Returns all hands with fingers, in the order of their joints' frames.
 std::vector<HandFingers> handFingersOf(const Config& C);
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline scene_internal

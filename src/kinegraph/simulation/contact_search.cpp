@@ -7,7 +7,7 @@
 
 #include "kinegraph/math/pose.h"
 
-namespace kinegraph {
+namespace kinegraph::inline simulation_internal {
 
 namespace {
 
@@ -155,4 +155,4 @@ double ContactSearch::freeSpace(const mjModel& m, mjData& d, const Pair& pair) {
   return physics().mj_geomDistance(&m, &d, a, b, 1e3, nullptr) - pair.reach;
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline simulation_internal

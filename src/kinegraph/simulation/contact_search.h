@@ -4,7 +4,7 @@
 
 #include "kinegraph/simulation/physics.h"
 
-namespace kinegraph {
+namespace kinegraph::inline simulation_internal {
 
 /// Tells when no two shapes of a model can touch, so that MuJoCo's search for contacts, which would find none, may be
 /// left out. Distances of pairs are measured once; a pair is measured again when both shapes could have moved by as
@@ -49,4 +49,4 @@ class ContactSearch {
   int pause_ = 0;             ///< number of steps without measurements, after a pair was near
 };
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline simulation_internal

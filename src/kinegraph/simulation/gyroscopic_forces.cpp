@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace kinegraph {
+namespace kinegraph::inline simulation_internal {
 
 namespace {
 
@@ -145,4 +145,4 @@ void GyroscopicForces::applyToJoints(const mjModel& m, mjData& d, double h) {
   for (const int dof : joint_dofs_) d.qfrc_applied[dof] = d.qfrc_bias[dof] - bias_[std::size_t(dof)];
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline simulation_internal

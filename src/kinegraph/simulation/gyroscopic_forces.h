@@ -4,7 +4,7 @@
 
 #include "kinegraph/simulation/scene_model.h"
 
-namespace kinegraph {
+namespace kinegraph::inline simulation_internal {
 
 /// Corrects the velocity-dependent (Coriolis, gyroscopic) forces of unactuated bodies that rotate fast.
 ///
@@ -47,4 +47,4 @@ class GyroscopicForces {
   int too_fast_ = 0;
 };
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline simulation_internal

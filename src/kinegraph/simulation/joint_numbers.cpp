@@ -2,7 +2,7 @@
 
 #include "kinegraph/simulation/scene_model.h"
 
-namespace kinegraph {
+namespace kinegraph::inline simulation_internal {
 
 void readJoint(const ModelJoint& joint, const mjtNum* qpos, double* q) {
   for (const ModelStep& step : joint.steps) {
@@ -111,4 +111,4 @@ void writeFreePose(const Pose& pose, mjtNum* qpos) {
   for (int i = 0; i < 4; ++i) qpos[3 + i] = rotation[i];
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline simulation_internal

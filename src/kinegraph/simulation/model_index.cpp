@@ -7,7 +7,7 @@
 #include "kinegraph/common/errors.h"
 #include "kinegraph/common/text.h"
 
-namespace kinegraph {
+namespace kinegraph::inline simulation_internal {
 
 namespace {
 
@@ -202,4 +202,4 @@ void indexModel(const ModelParts& parts, const std::vector<ModelShapes::Geom>& g
   ModelIndex(parts, geoms, kinematics, model).index();
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline simulation_internal

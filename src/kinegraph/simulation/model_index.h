@@ -6,7 +6,7 @@
 #include "kinegraph/simulation/model_shapes.h"
 #include "kinegraph/simulation/scene_model.h"
 
-namespace kinegraph {
+namespace kinegraph::inline simulation_internal {
 
 /// The parts of a model before MuJoCo compiles it.
 struct ModelParts {
@@ -38,4 +38,4 @@ double motionRatio(const FrameData& follower, const FrameData& source);
 void indexModel(const ModelParts& parts, const std::vector<ModelShapes::Geom>& geoms, const KinematicModel& kinematics,
                 SceneModel& model);
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline simulation_internal

@@ -10,7 +10,7 @@
 #include "kinegraph/geometry/shapes/convex_hull.h"
 #include "kinegraph/geometry/shapes/shape_kinds.h"
 
-namespace kinegraph {
+namespace kinegraph::inline simulation_internal {
 
 namespace {
 
@@ -244,4 +244,4 @@ void ModelShapes::addPairs(const ContactRules& rules, const std::vector<bool>& d
   });
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline simulation_internal

@@ -6,7 +6,7 @@
 
 #include "kinegraph/simulation/scene_model.h"
 
-namespace kinegraph {
+namespace kinegraph::inline simulation_internal {
 
 constexpr int kGroundBody = -1;  ///< ModelShapes::Geom::body of the ground
 inline int fixedBody(int frame) { return -2 - frame; }
@@ -63,4 +63,4 @@ class ModelShapes {
   std::map<const void*, std::string> meshes_;
 };
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline simulation_internal

@@ -1,6 +1,6 @@
 #include "kinegraph/simulation/physics.h"
 
-namespace kinegraph {
+namespace kinegraph::inline simulation_internal {
 
 const Physics& physics() {
   static const Physics functions = [] {
@@ -12,4 +12,4 @@ const Physics& physics() {
   return functions;
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline simulation_internal

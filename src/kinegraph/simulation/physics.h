@@ -6,7 +6,7 @@
 
 extern "C" void mj_updateSleep(const mjModel* m, mjData* d);  ///< exported, but in none of MuJoCo's headers
 
-namespace kinegraph {
+namespace kinegraph::inline simulation_internal {
 
 // clang-format off
 #define KINEGRAPH_PHYSICS_FUNCTIONS(X) \
@@ -28,4 +28,4 @@ struct Physics {
 /// FileError with the library's name if it is missing.
 const Physics& physics();
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline simulation_internal

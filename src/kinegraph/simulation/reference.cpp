@@ -5,7 +5,7 @@
 
 #include "kinegraph/common/text.h"
 
-namespace kinegraph {
+namespace kinegraph::inline simulation_internal {
 
 namespace {
 
@@ -210,4 +210,4 @@ void Reference::shift(double h) {
   }
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline simulation_internal

@@ -5,7 +5,7 @@
 #include "kinegraph/simulation/scene_model.h"
 #include "kinegraph/trajectories/trajectory.h"
 
-namespace kinegraph {
+namespace kinegraph::inline simulation_internal {
 
 /// Reference trajectories of all servos: position, velocity and acceleration, in the units of the model's motions.
 /// A value type: copies of it are part of a simulation's state.
@@ -94,4 +94,4 @@ class Reference {
 int controlSize(ControlMode mode, int dofs);
 const char* controlModeName(ControlMode mode);
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline simulation_internal

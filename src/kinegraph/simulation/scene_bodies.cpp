@@ -10,7 +10,7 @@
 #include "kinegraph/geometry/shapes/shape_kinds.h"
 #include "kinegraph/scene/tree/inertia_edits.h"
 
-namespace kinegraph {
+namespace kinegraph::inline simulation_internal {
 
 namespace {
 
@@ -397,4 +397,4 @@ SceneBodies divideScene(const SceneTree& scene, const std::set<int>& measured) {
   return Divider(scene, measured).divide();
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline simulation_internal

@@ -6,7 +6,7 @@
 
 #include "kinegraph/scene/tree/scene_tree.h"
 
-namespace kinegraph {
+namespace kinegraph::inline simulation_internal {
 
 /// A rigid body of the simulation: a frame and everything rigidly attached to it.
 struct SceneBody {
@@ -55,4 +55,4 @@ SceneBodies divideScene(const SceneTree& scene, const std::set<int>& measured = 
 bool attributeFlag(const FrameData& frame, const char* key, bool otherwise);
 double attributeNumber(const FrameData& frame, const char* key, double otherwise);
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline simulation_internal

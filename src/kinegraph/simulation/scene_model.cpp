@@ -11,7 +11,7 @@
 #include "kinegraph/simulation/model_index.h"
 #include "kinegraph/simulation/model_shapes.h"
 
-namespace kinegraph {
+namespace kinegraph::inline simulation_internal {
 
 namespace {
 
@@ -402,4 +402,4 @@ SceneModel makeSceneModel(SceneTree& scene, const SimulationOptions& options, co
   return ModelMaker(scene, options, extras).make();
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline simulation_internal

@@ -10,7 +10,7 @@
 #include "kinegraph/simulation/scene_bodies.h"
 #include "kinegraph/simulation/simulation_data.h"
 
-namespace kinegraph {
+namespace kinegraph::inline simulation_internal {
 
 /// One step of a joint in the model: one model joint, or none for MotionKind::time.
 struct ModelStep {
@@ -113,4 +113,4 @@ void writeJointVelocity(const ModelJoint& joint, const double* q, const double* 
 Pose readFreePose(const mjtNum* qpos);
 void writeFreePose(const Pose& pose, mjtNum* qpos);
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline simulation_internal

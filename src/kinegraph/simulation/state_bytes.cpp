@@ -6,7 +6,7 @@
 
 #include "kinegraph/common/errors.h"
 
-namespace kinegraph {
+namespace kinegraph::inline simulation_internal {
 
 namespace {
 
@@ -184,4 +184,4 @@ WorldState stateFromBytes(std::string_view bytes, const World& world) {
   return state;
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline simulation_internal

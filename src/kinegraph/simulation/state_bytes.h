@@ -5,7 +5,7 @@
 
 #include "kinegraph/simulation/world.h"
 
-namespace kinegraph {
+namespace kinegraph::inline simulation_internal {
 
 /// Writes a world's state with all bits of all numbers, for the same version of the library on the same kind of
 /// machine.
@@ -14,4 +14,4 @@ std::string stateToBytes(const WorldState& state);
 /// Reads a state that stateToBytes wrote for `world`'s model. Throws ValueError for other bytes or another model.
 WorldState stateFromBytes(std::string_view bytes, const World& world);
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline simulation_internal

@@ -2,7 +2,7 @@
 
 #include "kinegraph/simulation/world.h"
 
-namespace kinegraph {
+namespace kinegraph::inline simulation_internal {
 
 void World::forgetForces() {
   std::fill_n(data_->qacc_warmstart, physics_->nv, 0.);
@@ -96,4 +96,4 @@ void World::transferWelds(const World& old, const std::function<int(int frame)>&
   }
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline simulation_internal

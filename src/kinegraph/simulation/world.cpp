@@ -7,7 +7,7 @@
 #include "kinegraph/common/text.h"
 #include "kinegraph/rendering/mujoco.h"
 
-namespace kinegraph {
+namespace kinegraph::inline simulation_internal {
 
 namespace {
 
@@ -223,4 +223,4 @@ Pose World::bodyPose(int body) const {
   return X;
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline simulation_internal

@@ -12,7 +12,7 @@
 #include "kinegraph/simulation/reference.h"
 #include "kinegraph/simulation/scene_model.h"
 
-namespace kinegraph {
+namespace kinegraph::inline simulation_internal {
 
 /// The present command of a gripper.
 struct GripperTask {
@@ -194,4 +194,4 @@ class World {
   std::set<int> too_fast_;
 };
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline simulation_internal

@@ -5,7 +5,7 @@
 #include "kinegraph/simulation/physics.h"
 #include "kinegraph/simulation/world.h"
 
-namespace kinegraph {
+namespace kinegraph::inline simulation_internal {
 
 namespace {
 
@@ -83,4 +83,4 @@ void World::removePerturbation() {
   std::copy_n(force_before_perturbation_.data(), 6, data_->xfrc_applied + 6 * id);
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline simulation_internal

@@ -6,7 +6,7 @@
 #include "kinegraph/rendering/mujoco.h"
 #include "kinegraph/simulation/world.h"
 
-namespace kinegraph {
+namespace kinegraph::inline simulation_internal {
 
 namespace {
 
@@ -117,4 +117,4 @@ void World::forgetWokenContacts() {
   });
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline simulation_internal

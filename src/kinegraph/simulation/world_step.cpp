@@ -6,7 +6,7 @@
 #include "kinegraph/rendering/mujoco.h"
 #include "kinegraph/simulation/world.h"
 
-namespace kinegraph {
+namespace kinegraph::inline simulation_internal {
 
 namespace {
 
@@ -306,4 +306,4 @@ void World::checkNumbers(double time) {
           " s; the state before the step is restored. Possible causes: tiny masses, deep overlaps, large torques"));
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline simulation_internal

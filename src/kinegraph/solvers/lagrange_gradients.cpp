@@ -8,7 +8,7 @@
 #include "kinegraph/common/errors.h"
 #include "kinegraph/common/text.h"
 
-namespace kinegraph {
+namespace kinegraph::inline solvers_internal {
 
 std::vector<LagrangeGradient> lagrangeGradients(Nlp& nlp, const VectorXd& x, const VectorXd& dual,
                                                 const std::vector<std::string>& names) {
@@ -58,4 +58,4 @@ std::vector<LagrangeGradient> lagrangeGradients(Nlp& nlp, const VectorXd& x, con
   return list;
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline solvers_internal

@@ -5,7 +5,7 @@
 
 #include "kinegraph/nlp/nlp.h"
 
-namespace kinegraph {
+namespace kinegraph::inline solvers_internal {
 
 /// The contribution of residuals of one name to the gradient of the Lagrangian at a point.
 struct LagrangeGradient {
@@ -21,4 +21,4 @@ struct LagrangeGradient {
 std::vector<LagrangeGradient> lagrangeGradients(Nlp& nlp, const VectorXd& x, const VectorXd& dual,
                                                 const std::vector<std::string>& names = {});
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline solvers_internal

@@ -7,7 +7,7 @@
 
 #include "kinegraph/scene/tree/frame_data.h"
 
-namespace kinegraph {
+namespace kinegraph::inline task_planning_internal {
 
 namespace {
 
@@ -52,4 +52,4 @@ VectorXd facing(const Config& C, const std::string& hand, const Vector3d& point)
   return q;
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline task_planning_internal

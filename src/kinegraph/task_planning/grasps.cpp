@@ -254,9 +254,11 @@ Eigen::AlignedBox3d boxInDisk(const Frame& disk) {
 
 }  // namespace
 
-std::vector<std::string> fingerShapes(const Config& C, const std::string& hand) { return shapesOfHand(C, hand, true); }
+std::vector<std::string> task_planning_internal::fingerShapes(const Config& C, const std::string& hand) {
+  return shapesOfHand(C, hand, true);
+}
 
-double fingerReach(const Config& C, const std::string& hand) {
+double task_planning_internal::fingerReach(const Config& C, const std::string& hand) {
   double reach = 0.;
   const Frame frame = C.getFrame(hand);
   for (const std::string& name : fingerShapes(C, hand)) {
@@ -267,7 +269,8 @@ double fingerReach(const Config& C, const std::string& hand) {
   return reach;
 }
 
-std::string addGripFrame(Config& scene, const std::string& hand, const std::string& obj, const std::string& variant) {
+std::string task_planning_internal::addGripFrame(Config& scene, const std::string& hand, const std::string& obj,
+                                                 const std::string& variant) {
   const double shift = gripShift(scene, hand, obj, variant);
   if (shift < kNoShift) return hand;
   const std::string name = gripName(hand, obj, variant);
@@ -275,15 +278,15 @@ std::string addGripFrame(Config& scene, const std::string& hand, const std::stri
   return name;
 }
 
-std::optional<GraspGuess> graspGuess(const Config& C, const std::string& obj, const std::string& hand,
-                                     const std::string& variant) {
+std::optional<GraspGuess> task_planning_internal::graspGuess(const Config& C, const std::string& obj,
+                                                             const std::string& hand, const std::string& variant) {
   const std::optional<double> wide = opening(C, hand);
   if (!wide || !isCompound(C.getFrame(obj)) || variant == "touch") return std::nullopt;
   return PartAccess(C, obj, *wide).guess(variant);
 }
 
-void addGrasp(TaskWaypoints& w, double time, const std::string& hand, const std::string& obj,
-              const std::string& variant, double inside) {
+void task_planning_internal::addGrasp(TaskWaypoints& w, double time, const std::string& hand, const std::string& obj,
+                                      const std::string& variant, double inside) {
   const std::string palm = palmOf(w.C, hand), shifted = gripName(hand, obj, variant);
   const std::string grip = w.C.findFrame(shifted) ? shifted : hand;
   const GraspWords words = graspWords(obj, variant);
@@ -316,7 +319,8 @@ void addGrasp(TaskWaypoints& w, double time, const std::string& hand, const std:
   }
 }
 
-std::string graspFlaw(const Config& C, const std::string& obj, const std::string& place, const std::string& hand) {
+std::string task_planning_internal::graspFlaw(const Config& C, const std::string& obj, const std::string& place,
+                                              const std::string& hand) {
   if (!opening(C, hand)) return "";
   const Variants ways = graspVariants(C, obj, hand);
   const HeldHeights at = heldHeights(C, obj, {"", std::string(kAllParts)});
@@ -329,7 +333,7 @@ std::string graspFlaw(const Config& C, const std::string& obj, const std::string
   return "";
 }
 
-std::string graspMisfit(const Config& C, const std::string& obj, const std::string& hand) {
+std::string task_planning_internal::graspMisfit(const Config& C, const std::string& obj, const std::string& hand) {
   const Openings openings = openingsOf(C, hand);
   if (openings.least > 0.)
     return cat("'", obj, "' does not fit between the fingers of '", hand, "' (", fixed(openings.least, 3), " to ",

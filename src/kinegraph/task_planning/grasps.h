@@ -7,7 +7,7 @@
 #include "kinegraph/task_planning/held_shapes.h"
 #include "kinegraph/task_planning/task_waypoints.h"
 
-namespace kinegraph {
+namespace kinegraph::inline task_planning_internal {
 
 /// Returns the distance by which the fingers of a hand reach beyond its frame, m; 0 without modeled fingers.
 double fingerReach(const Config& C, const std::string& hand);
@@ -36,4 +36,4 @@ std::string graspMisfit(const Config& C, const std::string& obj, const std::stri
 /// "" for other objects.
 std::string graspFlaw(const Config& C, const std::string& obj, const std::string& place, const std::string& hand);
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline task_planning_internal

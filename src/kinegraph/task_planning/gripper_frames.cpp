@@ -15,7 +15,7 @@
 #include "kinegraph/scene/tree/scene_tree.h"
 #include "kinegraph/task_planning/task_actions.h"
 
-namespace kinegraph {
+namespace kinegraph::inline task_planning_internal {
 
 namespace {
 
@@ -154,4 +154,4 @@ std::vector<std::string> gripperFrameFlaws(const Config& C, const std::vector<st
   return flaws;
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline task_planning_internal

@@ -5,7 +5,7 @@
 
 #include "kinegraph/scene/config.h"
 
-namespace kinegraph {
+namespace kinegraph::inline task_planning_internal {
 
 /// Returns sentences about hands whose frame cannot serve for grasps. It lies inside a colliding shape of the hand, its
 /// x axis is not the direction in which the fingers move, or its z axis does not point back into the hand. The axes are
@@ -13,4 +13,4 @@ namespace kinegraph {
 /// hands are as expected.
 std::vector<std::string> gripperFrameFlaws(const Config& C, const std::vector<std::string>& hands);
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline task_planning_internal

@@ -9,7 +9,7 @@
 #include "kinegraph/task_planning/task_tools.h"
 
 // The shapes of objects that hands hold.
-namespace kinegraph {
+namespace kinegraph::inline task_planning_internal {
 
 int GraspWords::axis() const { return way.size() == 1 && way[0] >= 'x' && way[0] <= 'z' ? way[0] - 'x' : -1; }
 
@@ -178,4 +178,4 @@ bool PartAccess::hasRoom(const Vector3d& point, double room) const {
   return std::ranges::all_of(parts_, [&](const Part& part) { return part.distance(point) > room; });
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline task_planning_internal

@@ -7,7 +7,7 @@
 
 #include "kinegraph/scene/config.h"
 
-namespace kinegraph {
+namespace kinegraph::inline task_planning_internal {
 
 /// Distance of a grasp from the ends of an object, m.
 inline constexpr double kGraspInside = .012;
@@ -95,4 +95,4 @@ class PartAccess {
   double ground_;
 };
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline task_planning_internal

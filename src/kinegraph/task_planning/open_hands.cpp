@@ -11,7 +11,7 @@
 #include "kinegraph/task_planning/held_shapes.h"
 #include "kinegraph/task_planning/task_actions.h"
 
-namespace kinegraph {
+namespace kinegraph::inline task_planning_internal {
 
 namespace {
 
@@ -141,4 +141,4 @@ std::vector<double> narrowerOpenings(const Config& C, const std::set<std::string
   return openings;
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline task_planning_internal

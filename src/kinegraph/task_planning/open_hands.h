@@ -7,7 +7,7 @@
 
 #include "kinegraph/scene/config.h"
 
-namespace kinegraph {
+namespace kinegraph::inline task_planning_internal {
 
 /// Returns the scene with the fingers of its hands as far open as their limits allow, also around held objects. A hand
 /// opens less if its fingers would overlap something else. Fingers are joints that are no part of q: one joint with one
@@ -25,4 +25,4 @@ Config withFingersOf(const Config& C, const Config& other);
 /// objects next to which open fingers have no room.
 std::vector<double> narrowerOpenings(const Config& C, const std::set<std::string>& objects);
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline task_planning_internal

@@ -9,7 +9,7 @@
 #include "kinegraph/task_planning/task_actions.h"
 #include "kinegraph/task_planning/task_tools.h"
 
-namespace kinegraph {
+namespace kinegraph::inline task_planning_internal {
 
 namespace {
 
@@ -91,4 +91,4 @@ std::string supportingPlace(const Config& C, const std::string& obj, const std::
   return below;
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline task_planning_internal

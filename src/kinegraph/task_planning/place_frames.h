@@ -6,7 +6,7 @@
 
 #include "kinegraph/scene/config.h"
 
-namespace kinegraph {
+namespace kinegraph::inline task_planning_internal {
 
 /// Returns the reason for which nothing can stand on a frame, "it is tilted"; "" for a place. Places are boxes and
 /// cylinders with a level top of 5 cm or more that stand still, or hang below one of the `drawers`. `objects` are boxes
@@ -19,4 +19,4 @@ bool isOff(const Frame& obj, const Frame& place);
 /// Returns the place that an object stands on, the one with the nearest top; "" if none.
 std::string supportingPlace(const Config& C, const std::string& obj, const std::vector<std::string>& places);
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline task_planning_internal

@@ -11,7 +11,7 @@
 #include "kinegraph/task_planning/task_doors.h"
 #include "kinegraph/task_planning/task_tools.h"
 
-namespace kinegraph {
+namespace kinegraph::inline task_planning_internal {
 
 namespace {
 
@@ -298,4 +298,4 @@ std::vector<std::optional<Placement>> placementsOf(const Config& C, const std::v
   return Packing(C, actions, variants).all();
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline task_planning_internal

@@ -7,7 +7,7 @@
 #include "kinegraph/scene/config.h"
 #include "kinegraph/task_planning/task_actions.h"
 
-namespace kinegraph {
+namespace kinegraph::inline task_planning_internal {
 
 /// The base of an upright object: its extent along x and y of its frame, m.
 struct Footprint {
@@ -42,4 +42,4 @@ struct Placement {
 std::vector<std::optional<Placement>> placementsOf(const Config& C, const std::vector<TaskAction>& actions,
                                                    const std::vector<std::string>& variants = {});
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline task_planning_internal

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <limits>
 
-namespace kinegraph {
+namespace kinegraph::inline task_planning_internal {
 
 namespace {
 
@@ -65,4 +65,4 @@ double depthIn(const Eigen::Vector2d& point, const Polygon& polygon) {
   return is_inside ? nearest : -nearest;
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline task_planning_internal

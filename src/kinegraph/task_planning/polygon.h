@@ -3,7 +3,7 @@
 #include <Eigen/Dense>
 #include <vector>
 
-namespace kinegraph {
+namespace kinegraph::inline task_planning_internal {
 
 /// A convex polygon in the plane, counterclockwise, m.
 using Polygon = std::vector<Eigen::Vector2d>;
@@ -21,4 +21,4 @@ double gapTo(const Eigen::Vector2d& point, const Polygon& polygon);
 /// lines and points; minus infinity if the polygon is empty.
 double depthIn(const Eigen::Vector2d& point, const Polygon& polygon);
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline task_planning_internal

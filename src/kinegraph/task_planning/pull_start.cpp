@@ -10,7 +10,7 @@
 #include "kinegraph/task_planning/task_doors.h"
 #include "kinegraph/task_planning/task_tools.h"
 
-namespace kinegraph {
+namespace kinegraph::inline task_planning_internal {
 
 namespace {
 
@@ -246,4 +246,4 @@ std::optional<VectorXd> PullStart::reachWithTool(const TaskAction& begin, const 
   return reach(begin[5], bar * (grip_.at(begin[4]) * hook.getPose(tool)).inverse(), q, attempts);
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline task_planning_internal

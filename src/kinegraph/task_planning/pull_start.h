@@ -9,7 +9,7 @@
 #include "kinegraph/common/random.h"
 #include "kinegraph/task_planning/task_actions.h"
 
-namespace kinegraph {
+namespace kinegraph::inline task_planning_internal {
 
 /// Whether a sequence pulls an object with a bar.
 bool pullsWithBar(const Config& C, const std::vector<TaskAction>& actions);
@@ -58,4 +58,4 @@ class PullStart {
   std::map<std::string, Pose> grip_;  ///< poses of held objects in the hand
 };
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline task_planning_internal

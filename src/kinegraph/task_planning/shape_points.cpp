@@ -10,7 +10,7 @@
 #include "kinegraph/geometry/shapes/shape_kinds.h"
 #include "kinegraph/geometry/shapes/tessellation.h"
 
-namespace kinegraph {
+namespace kinegraph::inline task_planning_internal {
 
 namespace {
 
@@ -66,4 +66,4 @@ double diagonalOf(const Frame& frame, std::size_t count) {
   return std::sqrt(squares);
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline task_planning_internal

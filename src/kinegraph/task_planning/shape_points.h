@@ -5,7 +5,7 @@
 
 #include "kinegraph/scene/frame.h"
 
-namespace kinegraph {
+namespace kinegraph::inline task_planning_internal {
 
 /// Returns vertices of the surface of a shape, in frame coordinates, m; none without a surface.
 std::vector<Vector3d> shapePoints(const Frame& frame);
@@ -27,4 +27,4 @@ Eigen::Vector2d placeSides(const Frame& place);
 /// center.
 double diagonalOf(const Frame& frame, std::size_t count);
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline task_planning_internal

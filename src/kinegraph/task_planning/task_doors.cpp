@@ -14,7 +14,7 @@ std::string TaskDoor::stateAt(double q) const {
   return part >= kOpened ? "opened" : part <= kClosed ? "closed" : "ajar";
 }
 
-std::vector<TaskDoor> doorsOf(const Config& C) {
+std::vector<TaskDoor> task_planning_internal::doorsOf(const Config& C) {
   const std::vector<Literal> facts = sceneFacts(C);
   std::vector<std::string> names = wordsOf(facts, "is_door");
   for (const std::string& name : wordsOf(facts, "is_drawer"))
@@ -40,11 +40,13 @@ std::map<std::string, std::string> doorStates(const Config& C) {
   return states;
 }
 
-bool isHold(const TaskAction& action) { return !action.empty() && action[0] == "hold"; }
+bool task_planning_internal::isHold(const TaskAction& action) { return !action.empty() && action[0] == "hold"; }
 
-bool isGuided(const TaskAction& action) { return !action.empty() && (action[0] == "open" || action[0] == "close"); }
+bool task_planning_internal::isGuided(const TaskAction& action) {
+  return !action.empty() && (action[0] == "open" || action[0] == "close");
+}
 
-Grip gripOf(const Config& C, const std::string& hand, const std::string& handle) {
+Grip task_planning_internal::gripOf(const Config& C, const std::string& hand, const std::string& handle) {
   using Body = ShapeKind::Body;
   if (!opening(C, hand)) return Grip::point;
   switch (shapeKind(C.getFrame(handle).getShapeType()).body) {
@@ -58,7 +60,8 @@ Grip gripOf(const Config& C, const std::string& hand, const std::string& handle)
   }
 }
 
-MatrixXd withSettledDoors(const Config& C, const std::vector<TaskAction>& actions, MatrixXd waypoints) {
+MatrixXd task_planning_internal::withSettledDoors(const Config& C, const std::vector<TaskAction>& actions,
+                                                  MatrixXd waypoints) {
   const VectorXd q = C.getJointState();
   for (const TaskDoor& door : doorsOf(C)) {
     double now = q[door.dof];
@@ -72,7 +75,7 @@ MatrixXd withSettledDoors(const Config& C, const std::vector<TaskAction>& action
   return waypoints;
 }
 
-StillDoors withStillDoors(const Config& C, const std::vector<TaskDoor>& doors) {
+StillDoors task_planning_internal::withStillDoors(const Config& C, const std::vector<TaskDoor>& doors) {
   StillDoors still{C, {}};
   for (Eigen::Index i = 0; i < C.getJointDimension(); ++i)
     if (std::ranges::none_of(doors, [&](const TaskDoor& door) { return door.dof == i; })) still.dofs.push_back(i);
@@ -81,7 +84,7 @@ StillDoors withStillDoors(const Config& C, const std::vector<TaskDoor>& doors) {
   return still;
 }
 
-std::vector<std::string> partsOf(const Config& C, const std::string& door) {
+std::vector<std::string> task_planning_internal::partsOf(const Config& C, const std::string& door) {
   std::vector<std::string> parts = {door};
   for (std::size_t i = 0; i < parts.size(); ++i)
     for (const Frame& child : C.getFrame(parts[i]).getChildren())
@@ -89,7 +92,8 @@ std::vector<std::string> partsOf(const Config& C, const std::string& door) {
   return parts;
 }
 
-std::vector<std::string> movedBy(const Config& C, const std::string& door, const std::vector<std::string>& objects) {
+std::vector<std::string> task_planning_internal::movedBy(const Config& C, const std::string& door,
+                                                         const std::vector<std::string>& objects) {
   std::vector<std::string> moved;
   for (const Frame& frame : C.getFrame(door).getSubtree())
     if (std::ranges::find(objects, frame.getName()) != objects.end()) moved.push_back(frame.getName());

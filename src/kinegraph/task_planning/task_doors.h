@@ -6,7 +6,7 @@
 
 #include "kinegraph/task_planning/task_actions.h"
 
-namespace kinegraph {
+namespace kinegraph::inline task_planning_internal {
 
 /// A door or a drawer: a frame labeled is_door or is_drawer, with a joint of one dof with limits.
 struct TaskDoor {
@@ -56,4 +56,4 @@ std::vector<std::string> partsOf(const Config& C, const std::string& door);
 /// Returns the objects that a door or drawer moves along: those below it.
 std::vector<std::string> movedBy(const Config& C, const std::string& door, const std::vector<std::string>& objects);
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline task_planning_internal

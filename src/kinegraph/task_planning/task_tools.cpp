@@ -13,7 +13,7 @@
 #include "kinegraph/task_planning/shape_points.h"
 #include "kinegraph/task_planning/task_actions.h"
 
-namespace kinegraph {
+namespace kinegraph::inline task_planning_internal {
 
 namespace {
 
@@ -246,4 +246,4 @@ double tippingHeight(const Frame& obj, const Frame& place, double depth) {
   return friction > 0. ? depth / (2. * friction) : std::numeric_limits<double>::infinity();
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline task_planning_internal

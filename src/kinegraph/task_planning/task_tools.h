@@ -6,7 +6,7 @@
 
 #include "kinegraph/scene/config.h"
 
-namespace kinegraph {
+namespace kinegraph::inline task_planning_internal {
 
 /// Returns the center of mass of a body with everything fixed to it, in frame coordinates, m. If no part has a mass,
 /// masses are proportional to surfaces, as in a simulation.
@@ -79,4 +79,4 @@ int flatAxis(const Frame& bar, const Frame& tool);
 /// simulation. Infinite without friction.
 double tippingHeight(const Frame& obj, const Frame& place, double depth);
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline task_planning_internal

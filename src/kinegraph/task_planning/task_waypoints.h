@@ -8,10 +8,12 @@
 #include "kinegraph/task_planning/manipulation_helper.h"
 #include "kinegraph/task_planning/task_actions.h"
 
-namespace kinegraph {
-
+namespace kinegraph::inline task_planning_internal {
 struct Placement;
 struct TaskDoor;
+}
+
+namespace kinegraph {
 
 /// Default of the clearance that planTask keeps between all bodies whose contact is not meant, m.
 inline constexpr double kTaskMargin = .005;

@@ -8,7 +8,7 @@
 #include "kinegraph/solvers/nlp_solver.h"
 #include "kinegraph/task_planning/task_actions.h"
 
-namespace kinegraph {
+namespace kinegraph::inline task_planning_internal {
 
 namespace {
 
@@ -34,4 +34,4 @@ std::string violatedConstraint(const std::shared_ptr<Komo>& komo, const Cancella
              overlaps == explanation.conflicts.end() ? "" : cat(" while ", overlaps->details[0]));
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline task_planning_internal

@@ -10,7 +10,7 @@
 #include "kinegraph/tool_paths/plan_tool_path.h"
 #include "kinegraph/tool_paths/tool_curve.h"
 
-namespace kinegraph {
+namespace kinegraph::inline tool_paths_internal {
 
 namespace {
 
@@ -348,4 +348,4 @@ void PrimitiveList::add(const ToolPathElement& element, std::size_t number) {
   }
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline tool_paths_internal

@@ -7,7 +7,7 @@
 #include "kinegraph/tool_paths/tool_curve.h"
 #include "kinegraph/tool_paths/tool_path.h"
 
-namespace kinegraph {
+namespace kinegraph::inline tool_paths_internal {
 
 /// A smooth part of a tool curve over a parameter t, in m or nearly so.
 struct CurvePrimitive {
@@ -57,4 +57,4 @@ class PrimitiveList {
   bool is_first_ = true;    // the path proper has no primitive yet
 };
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline tool_paths_internal

@@ -8,7 +8,7 @@
 #include "kinegraph/common/text.h"
 #include "kinegraph/kinematics/kinematic_model.h"
 
-namespace kinegraph {
+namespace kinegraph::inline tool_paths_internal {
 
 namespace {
 
@@ -313,4 +313,4 @@ PathCurve withSpeedShare(const PathCurve& path, const std::function<double(doubl
   return PathCurve::fromParts(parts);
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline tool_paths_internal

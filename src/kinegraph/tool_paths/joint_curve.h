@@ -8,7 +8,7 @@
 #include "kinegraph/tool_paths/tool_kinematics.h"
 #include "kinegraph/trajectories/path_curve.h"
 
-namespace kinegraph {
+namespace kinegraph::inline tool_paths_internal {
 
 /// Joint values along a tool curve: q(s) in cubic pieces with continuous second derivatives between corners.
 struct JointCurve {
@@ -40,4 +40,4 @@ PathCurve withToolWay(ToolKinematics& tool, const ToolCurve& curve, const CubicP
 /// each piece. A limit of 1 for its velocity keeps these speeds.
 PathCurve withSpeedShare(const PathCurve& path, const std::function<double(double)>& speed_of);
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline tool_paths_internal

@@ -6,7 +6,7 @@
 #include <map>
 #include <utility>
 
-namespace kinegraph {
+namespace kinegraph::inline tool_paths_internal {
 
 namespace {
 
@@ -279,4 +279,4 @@ PathSequence orderWithTransfers(std::vector<std::vector<PathVariant>> variants, 
   return SequenceSearch(std::move(variants), free_order, from, limits, plan).run();
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline tool_paths_internal

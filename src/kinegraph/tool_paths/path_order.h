@@ -8,7 +8,7 @@
 #include "kinegraph/planning/motion_plan.h"
 #include "kinegraph/trajectories/retime.h"
 
-namespace kinegraph {
+namespace kinegraph::inline tool_paths_internal {
 
 inline constexpr double kSameConfiguration = 1e-6;  // rad or m: no transfer between two configurations
 
@@ -60,4 +60,4 @@ PathSequence orderWithTransfers(std::vector<std::vector<PathVariant>> variants, 
                                 const std::optional<VectorXd>& from, const MotionLimits& limits,
                                 const TransferPlanner& plan);
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline tool_paths_internal

@@ -11,7 +11,7 @@
 #include "kinegraph/kinematics/state.h"
 #include "kinegraph/planning/steering/joint_space.h"
 
-namespace kinegraph {
+namespace kinegraph::inline tool_paths_internal {
 
 namespace {
 
@@ -415,4 +415,4 @@ PathSolutions searchPath(ToolKinematics& tool, const ToolCurve& curve, EdgeCheck
   return PathSearch(tool, curve, checker, settings).run();
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline tool_paths_internal

@@ -7,7 +7,7 @@
 #include "kinegraph/tool_paths/plan_tool_path.h"
 #include "kinegraph/tool_paths/strands.h"
 
-namespace kinegraph {
+namespace kinegraph::inline tool_paths_internal {
 
 /// Why a path has no solution.
 struct PathFailure {
@@ -39,4 +39,4 @@ struct PathSearchSettings {
 PathSolutions searchPath(ToolKinematics& tool, const ToolCurve& curve, EdgeChecker& checker,
                          const PathSearchSettings& settings);
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline tool_paths_internal

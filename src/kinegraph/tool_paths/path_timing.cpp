@@ -7,7 +7,7 @@
 
 #include "kinegraph/tool_paths/slow_stretches.h"
 
-namespace kinegraph {
+namespace kinegraph::inline tool_paths_internal {
 
 namespace {
 
@@ -98,4 +98,4 @@ double PathTiming::estimatedDuration() const {
   return timed.feasible() ? timed.duration() : kUnlimited;
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline tool_paths_internal

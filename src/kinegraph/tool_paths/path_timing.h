@@ -4,7 +4,7 @@
 #include "kinegraph/tool_paths/joint_curve.h"
 #include "kinegraph/tool_paths/plan_tool_path.h"
 
-namespace kinegraph {
+namespace kinegraph::inline tool_paths_internal {
 
 /// The timing of a tool along its curve: the way of the tool is one more dof, whose speed, acceleration and jerk are
 /// limited, too. The arguments must outlive it.
@@ -41,4 +41,4 @@ class PathTiming {
   MatrixXd points_;
 };
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline tool_paths_internal

@@ -14,6 +14,10 @@
 #include "kinegraph/tool_paths/tool_path.h"
 #include "kinegraph/trajectories/retime.h"
 
+namespace kinegraph::inline trajectories_internal {
+struct ScalingState;
+}
+
 namespace kinegraph {
 
 /// A curve y(s) of cubic pieces. Smooth sections follow each other; between two sections the direction may jump, at a
@@ -222,8 +226,6 @@ std::optional<MotionTouch> firstContact(const Config& config, const TimedPath& m
 
 /// The same for all parts of a plan. Frames of its `touching` touch here, too, unless the scene excludes the pairs.
 std::optional<MotionTouch> firstContact(const Config& config, const ToolPathPlan& plan, double margin = 0.);
-
-struct ScalingState;
 
 /// The limit that is the nearest one at a time of a motion.
 struct NearestLimit {

@@ -11,7 +11,7 @@
 #include "kinegraph/trajectories/path_curve.h"
 #include "kinegraph/trajectories/time_scaling.h"
 
-namespace kinegraph {
+namespace kinegraph::inline tool_paths_internal {
 
 namespace {
 
@@ -87,4 +87,4 @@ double idleShare(const TimedPath& timed, const MotionLimits& limits, const std::
   return idle / timed.duration();
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline tool_paths_internal

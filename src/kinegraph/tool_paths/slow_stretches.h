@@ -6,7 +6,7 @@
 #include "kinegraph/kinematics/kinematic_model.h"
 #include "kinegraph/tool_paths/plan_tool_path.h"
 
-namespace kinegraph {
+namespace kinegraph::inline tool_paths_internal {
 
 /// Appends the stretches between s = `from` and `to` on which the tool is slower than `speed_of`(s) by more than .5
 /// %. Each names the limit that is the nearest one for the longest time. The last dof of `timed` and of `limits` is
@@ -19,4 +19,4 @@ void addSlowStretches(const TimedPath& timed, int path, double from, double to, 
 /// although all limits have room: the grid of the time scaling is too coarse.
 double idleShare(const TimedPath& timed, const MotionLimits& limits, const std::function<double(double)>& speed_of);
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline tool_paths_internal

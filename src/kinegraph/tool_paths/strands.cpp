@@ -8,7 +8,7 @@
 #include "kinegraph/kinematics/kinematic_model.h"
 #include "kinegraph/kinematics/state.h"
 
-namespace kinegraph {
+namespace kinegraph::inline tool_paths_internal {
 
 namespace {
 
@@ -405,4 +405,4 @@ void smoothChain(ToolKinematics& tool, const ToolCurve& curve, const std::vector
   checker.setMargin(margin);
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline tool_paths_internal

@@ -8,7 +8,7 @@
 #include "kinegraph/common/cancellation.h"
 #include "kinegraph/tool_paths/tool_kinematics.h"
 
-namespace kinegraph {
+namespace kinegraph::inline tool_paths_internal {
 
 /// Configurations along a tool curve, one per place, that follow each other without jumps: one branch of the inverse
 /// kinematics. Wide joints count their turns.
@@ -93,4 +93,4 @@ std::vector<VectorXd> cheapestChain(const ToolKinematics& tool, const std::vecto
 void smoothChain(ToolKinematics& tool, const ToolCurve& curve, const std::vector<double>& places, EdgeChecker& checker,
                  std::vector<VectorXd>& q);
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline tool_paths_internal

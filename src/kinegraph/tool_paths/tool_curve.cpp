@@ -7,7 +7,7 @@
 #include "kinegraph/common/text.h"
 #include "kinegraph/tool_paths/curve_primitives.h"
 
-namespace kinegraph {
+namespace kinegraph::inline tool_paths_internal {
 
 namespace {
 
@@ -143,4 +143,4 @@ ToolCurve ToolCurve::reversed() const {
   return back;
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline tool_paths_internal

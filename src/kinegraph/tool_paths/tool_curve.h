@@ -6,7 +6,7 @@
 #include "kinegraph/tool_paths/plan_tool_path.h"
 #include "kinegraph/tool_paths/tool_path.h"
 
-namespace kinegraph {
+namespace kinegraph::inline tool_paths_internal {
 
 /// Desired position (m) and unit x and z axes of the tool.
 struct ToolTarget {
@@ -81,4 +81,4 @@ class ToolCurve {
   std::vector<SpeedSection> speeds_;  ///< neighbors differ
 };
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline tool_paths_internal

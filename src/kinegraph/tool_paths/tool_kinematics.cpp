@@ -10,7 +10,7 @@
 #include "kinegraph/kinematics/kinematic_model.h"
 #include "kinegraph/kinematics/state.h"
 
-namespace kinegraph {
+namespace kinegraph::inline tool_paths_internal {
 
 namespace {
 
@@ -321,4 +321,4 @@ ToolKinematics::Remainder ToolKinematics::fifthCoefficient(const MatrixXd& coeff
   return {position[kSeries - 1], all[kSeries - 1]};
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline tool_paths_internal

@@ -9,7 +9,7 @@
 #include "kinegraph/scene/config.h"
 #include "kinegraph/tool_paths/tool_curve.h"
 
-namespace kinegraph {
+namespace kinegraph::inline tool_paths_internal {
 
 /// Error of a tool in the coordinates of the path's reference frame: tool minus target.
 struct ToolMiss {
@@ -121,4 +121,4 @@ class ToolKinematics {
   Eigen::Matrix<double, 6, Eigen::Dynamic, Eigen::RowMajor> J_, J_reference_;
 };
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline tool_paths_internal

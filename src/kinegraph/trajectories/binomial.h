@@ -1,6 +1,6 @@
 #pragma once
 
-namespace kinegraph {
+namespace kinegraph::inline trajectories_internal {
 
 /// Returns the binomial coefficient n over k; 0 outside of 0 <= k <= n.
 inline double binomial(int n, int k) {
@@ -10,4 +10,4 @@ inline double binomial(int n, int k) {
   return value;
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline trajectories_internal

@@ -5,7 +5,7 @@
 
 #include "kinegraph/trajectories/s_curve_profile.h"
 
-namespace kinegraph {
+namespace kinegraph::inline trajectories_internal {
 
 namespace {
 
@@ -62,4 +62,4 @@ std::vector<int> cornersWithFasterStops(const TimedPath& timed, const std::vecto
   return found;
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline trajectories_internal

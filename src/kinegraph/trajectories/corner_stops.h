@@ -4,7 +4,7 @@
 
 #include "kinegraph/trajectories/retime.h"
 
-namespace kinegraph {
+namespace kinegraph::inline trajectories_internal {
 
 /// Returns the corners of a timed path with jerk limits at which a stop takes less time than the blend. A corner is an
 /// index of `halves`, the lengths of the path's blends (blendHalves). Both motions are compared between the middles of
@@ -12,4 +12,4 @@ namespace kinegraph {
 std::vector<int> cornersWithFasterStops(const TimedPath& timed, const std::vector<double>& halves,
                                         const MotionLimits& limits);
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline trajectories_internal

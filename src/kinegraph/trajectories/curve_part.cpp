@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cassert>
 
-namespace kinegraph {
+namespace kinegraph::inline trajectories_internal {
 
 namespace {
 
@@ -132,4 +132,4 @@ TimedPath reversed(const TimedPath& motion) {
                               reversed(motion.curve()), reversed(motion.scaling(), motion.curve()));
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline trajectories_internal

@@ -4,7 +4,7 @@
 #include "kinegraph/trajectories/retime.h"
 #include "kinegraph/trajectories/time_scaling.h"
 
-namespace kinegraph {
+namespace kinegraph::inline trajectories_internal {
 
 /// A part of a curve as a curve of its own, whose s starts at 0.
 struct CurvePart {
@@ -32,4 +32,4 @@ PathCurve joined(const PathCurve& first, const PathCurve& second, bool jumps = t
 /// opposite velocity and the same acceleration.
 TimedPath reversed(const TimedPath& motion);
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline trajectories_internal

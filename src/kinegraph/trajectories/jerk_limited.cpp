@@ -7,7 +7,7 @@
 #include "kinegraph/trajectories/s_curve_profile.h"
 #include "kinegraph/trajectories/scaling_proof.h"
 
-namespace kinegraph {
+namespace kinegraph::inline trajectories_internal {
 
 namespace {
 
@@ -326,4 +326,4 @@ JerkLimitedScaling jerkLimitedScaling(const ScalingGrid& grid, const SquaredSpee
   return smooth;
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline trajectories_internal

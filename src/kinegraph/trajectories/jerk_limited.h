@@ -2,7 +2,7 @@
 
 #include "kinegraph/trajectories/time_optimal.h"
 
-namespace kinegraph {
+namespace kinegraph::inline trajectories_internal {
 
 /// A jerk-limited time scaling, or the cause of its failure at s = place.
 struct JerkLimitedScaling {
@@ -31,4 +31,4 @@ JerkLimitedScaling jerkLimitedScaling(const ScalingGrid& grid, const SquaredSpee
                                       const MotionLimits& limits, const ConstraintSource& rows,
                                       const ScalingBudget& budget);
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline trajectories_internal

@@ -2,7 +2,7 @@
 
 #include "kinegraph/math/lane_widths.h"
 
-namespace kinegraph {
+namespace kinegraph::inline trajectories_internal {
 
 const JerkLimitedKernel& jerkLimitedKernel(int width) {
   width = checkedLaneWidth(width);
@@ -13,4 +13,4 @@ const JerkLimitedKernel& jerkLimitedKernel(int width) {
   return lanes::kJerkLimitedKernelBase;
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline trajectories_internal

@@ -1,6 +1,6 @@
 #pragma once
 
-namespace kinegraph {
+namespace kinegraph::inline trajectories_internal {
 
 // The constraint rows of a JerkLimitedProgram, for eight intervals at once. Arrays over intervals have kLanes extra
 // entries. Nothing in this file owns memory or has inline functions, because code for other instruction sets includes
@@ -57,9 +57,9 @@ struct JerkLimitedKernel {
 /// Returns the kernel for a `width` of laneWidths(), 0 for the widest.
 const JerkLimitedKernel& jerkLimitedKernel(int width = 0);
 
-namespace lanes {
+}  // namespace kinegraph::inline trajectories_internal
+
+namespace kinegraph::lanes {
 /// One kernel per instruction set.
 extern const JerkLimitedKernel kJerkLimitedKernelBase, kJerkLimitedKernelAvx2, kJerkLimitedKernelAvx512;
-}  // namespace lanes
-
-}  // namespace kinegraph
+}  // namespace kinegraph::lanes

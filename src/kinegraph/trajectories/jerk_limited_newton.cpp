@@ -5,7 +5,7 @@
 
 // The interior-point steps of a JerkLimitedProgram.
 
-namespace kinegraph {
+namespace kinegraph::inline trajectories_internal {
 
 namespace {
 
@@ -248,4 +248,4 @@ void JerkLimitedProgram::tighten(int k, const std::array<double, 3>& ratios) {
   }
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline trajectories_internal

@@ -5,7 +5,7 @@
 
 #include "kinegraph/trajectories/binomial.h"
 
-namespace kinegraph {
+namespace kinegraph::inline trajectories_internal {
 
 namespace {
 
@@ -197,4 +197,4 @@ void JerkLimitedProgram::addCaps(const ScalingGrid& grid, const MotionLimits& li
   row(0, count_).add(0., 0., 1. / end);
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline trajectories_internal

@@ -8,7 +8,7 @@
 #include "kinegraph/trajectories/jerk_limited_kernel.h"
 #include "kinegraph/trajectories/scaling_grid.h"
 
-namespace kinegraph {
+namespace kinegraph::inline trajectories_internal {
 
 /// Start or end of a section of a curve.
 struct SectionEnd {
@@ -115,4 +115,4 @@ class JerkLimitedProgram {
   Gap gap_;
 };
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline trajectories_internal

@@ -7,7 +7,7 @@
 #include "kinegraph/common/errors.h"
 #include "kinegraph/trajectories/curve_part.h"
 
-namespace kinegraph {
+namespace kinegraph::inline trajectories_internal {
 
 namespace {
 
@@ -149,4 +149,4 @@ PathCurve curveOf(const Trajectory& motion, const CancellationToken& cancellatio
   return joinedAll(curves.data(), curves.size());
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline trajectories_internal

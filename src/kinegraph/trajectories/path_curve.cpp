@@ -6,7 +6,7 @@
 #include "kinegraph/common/errors.h"
 #include "kinegraph/common/text.h"
 
-namespace kinegraph {
+namespace kinegraph::inline trajectories_internal {
 
 int PathCurve::pieceAt(double s) const {
   const auto after = std::upper_bound(begin_.begin(), begin_.end(), s);
@@ -367,4 +367,4 @@ PathCurve cubicSpline(const MatrixXd& points) {
   return curve.take();
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline trajectories_internal

@@ -5,7 +5,7 @@
 #include "kinegraph/math/pose.h"
 #include "kinegraph/trajectories/retime.h"
 
-namespace kinegraph {
+namespace kinegraph::inline trajectories_internal {
 
 /// A geometric path q(s), 0 <= s <= length(), as a piecewise polynomial.
 ///
@@ -89,4 +89,4 @@ PathCurve blendedPolyline(const MatrixXd& points, const std::vector<double>& hal
 /// exceeds 20 in any dof, and the curve stays near its points for any spacing.
 PathCurve cubicSpline(const MatrixXd& points);
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline trajectories_internal

@@ -9,6 +9,11 @@
 #include "kinegraph/math/pose.h"
 #include "kinegraph/trajectories/trajectory.h"
 
+namespace kinegraph::inline trajectories_internal {
+class PathCurve;
+class TimeScaling;
+}
+
 namespace kinegraph {
 
 /// Limits per dof: |dq/dt| <= velocity, |d2q/dt2| <= acceleration, |d3q/dt3| <= jerk. Positive, in rad or m, s;
@@ -37,9 +42,6 @@ struct ConstraintSource {
 /// Tells whether a curve along these points (M, dofs) is collision-free; between two points it deviates from the chord
 /// by at most `deviation` in every dof.
 using BlendCheck = std::function<bool(const MatrixXd& points, double deviation)>;
-
-class PathCurve;
-class TimeScaling;
 
 /// Treatment of the corners of a path.
 enum class Corners {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace kinegraph {
+namespace kinegraph::inline trajectories_internal {
 
 namespace {
 
@@ -92,4 +92,4 @@ bool addSCurve(TimeScaling& scaling, double s0, double s1, double speed0, double
   return true;
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline trajectories_internal

@@ -3,7 +3,7 @@
 #include "kinegraph/trajectories/scaling_grid.h"
 #include "kinegraph/trajectories/time_scaling.h"
 
-namespace kinegraph {
+namespace kinegraph::inline trajectories_internal {
 
 /// Limits of |s'|, |s''|, |s'''| for a motion along a line.
 struct LineMotionLimits {
@@ -19,4 +19,4 @@ LineMotionLimits limitsAlong(const double* tangent, const MotionLimits& limits);
 bool addSCurve(TimeScaling& scaling, double s0, double s1, double speed0, double speed1, const LineMotionLimits& limits,
                int piece);
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline trajectories_internal

@@ -7,7 +7,7 @@
 #include "kinegraph/trajectories/path_curve.h"
 #include "kinegraph/trajectories/retime.h"
 
-namespace kinegraph {
+namespace kinegraph::inline trajectories_internal {
 
 /// The number of intervals of a time scaling, and a token to cancel its computation.
 struct ScalingBudget {
@@ -65,4 +65,4 @@ class ScalingGrid {
   Coefficients tangents_;
 };
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline trajectories_internal

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace kinegraph {
+namespace kinegraph::inline trajectories_internal {
 
 namespace {
 
@@ -160,4 +160,4 @@ std::array<double, 3> ScalingProof::shares(int interval, const std::array<double
   return shares;
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline trajectories_internal

@@ -5,7 +5,7 @@
 
 #include "kinegraph/trajectories/scaling_grid.h"
 
-namespace kinegraph {
+namespace kinegraph::inline trajectories_internal {
 
 /// Bounds the largest ratio of a motion to its limits in an interval with a quadratic s'^2: a polynomial stays within
 /// its Bernstein coefficients. Several dofs are bounded at once (SIMD).
@@ -39,4 +39,4 @@ class ScalingProof {
   std::vector<Inverse> inverse_;  ///< one per kLanes dofs
 };
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline trajectories_internal

@@ -6,7 +6,7 @@
 #include "kinegraph/trajectories/binomial.h"
 #include "kinegraph/trajectories/two_variable_program.h"
 
-namespace kinegraph {
+namespace kinegraph::inline trajectories_internal {
 
 namespace {
 
@@ -343,4 +343,4 @@ TimeScaling scalingOf(const ScalingGrid& grid, const MotionLimits& limits, const
   return scaling;
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline trajectories_internal

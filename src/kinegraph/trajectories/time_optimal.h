@@ -3,7 +3,7 @@
 #include "kinegraph/trajectories/scaling_grid.h"
 #include "kinegraph/trajectories/time_scaling.h"
 
-namespace kinegraph {
+namespace kinegraph::inline trajectories_internal {
 
 /// Cause of an infeasible time parameterization.
 enum class ScalingFailure {
@@ -36,4 +36,4 @@ SquaredSpeeds fastestSpeeds(const ScalingGrid& grid, const MotionLimits& limits,
 TimeScaling scalingOf(const ScalingGrid& grid, const MotionLimits& limits, const SquaredSpeeds& speeds,
                       const ScalingBudget& budget);
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline trajectories_internal

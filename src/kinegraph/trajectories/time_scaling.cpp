@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace kinegraph {
+namespace kinegraph::inline trajectories_internal {
 
 ScalingState ScalingPhase::at(double tau) const {
   const auto& [s0, v, a, j] = begin;
@@ -133,4 +133,4 @@ void TimeScaling::slowDown(double factor) {
   }
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline trajectories_internal

@@ -3,7 +3,7 @@
 #include <utility>
 #include <vector>
 
-namespace kinegraph {
+namespace kinegraph::inline trajectories_internal {
 
 /// State of a motion along a curve: s, ds/dt, d2s/dt2, d3s/dt3.
 struct ScalingState {
@@ -69,4 +69,4 @@ class TimeScaling {
   double duration_ = 0.;
 };
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline trajectories_internal

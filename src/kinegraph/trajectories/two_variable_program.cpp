@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace kinegraph {
+namespace kinegraph::inline trajectories_internal {
 
 namespace {
 
@@ -114,4 +114,4 @@ double TwoVariableProgram::signedValue(int inequality, const Eigen::ArrayXd& of_
   return 0.;
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline trajectories_internal

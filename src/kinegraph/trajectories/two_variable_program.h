@@ -3,7 +3,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-namespace kinegraph {
+namespace kinegraph::inline trajectories_internal {
 
 /// low <= u x + w y + t <= high.
 struct PlaneRow {
@@ -45,4 +45,4 @@ class TwoVariableProgram {
   Eigen::ArrayXd value_;
 };
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline trajectories_internal

@@ -4,7 +4,7 @@
 
 #include "kinegraph/komo/continuous_collisions.h"
 
-namespace kinegraph {
+namespace kinegraph::inline trajectory_optimization_internal {
 
 namespace {
 
@@ -210,4 +210,4 @@ void SplineConstraints::evaluateTerm(int number, const Path& path, const VectorX
   if (J && any && !is_separate_) collect(motion, first, *J);
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline trajectory_optimization_internal

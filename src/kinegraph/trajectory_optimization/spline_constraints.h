@@ -7,7 +7,7 @@
 #include "kinegraph/komo/objective.h"
 #include "kinegraph/trajectory_optimization/spline_layout.h"
 
-namespace kinegraph {
+namespace kinegraph::inline trajectory_optimization_internal {
 
 /// Collision constraints at samples of a spline between its slices, for objectives that are `between_slices`: one sum
 /// per motion,
@@ -84,4 +84,4 @@ class SplineConstraints {
   VectorXd row_;                                        ///< row of the Jacobian
 };
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline trajectory_optimization_internal

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace kinegraph {
+namespace kinegraph::inline trajectory_optimization_internal {
 
 namespace {
 
@@ -103,4 +103,4 @@ double SplineCurve::deviation(const SliceMotion& line, double begin, double end)
   return bounds_[std::size_t(bound_of_[std::size_t(line.slice)])].of(line.from, line.to, deviation);
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline trajectory_optimization_internal

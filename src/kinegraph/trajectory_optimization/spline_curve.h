@@ -7,7 +7,7 @@
 #include "kinegraph/komo/path/path_motion.h"
 #include "kinegraph/trajectory_optimization/spline_layout.h"
 
-namespace kinegraph {
+namespace kinegraph::inline trajectory_optimization_internal {
 
 /// The motion between slices along the spline of a SplineMotion, with a bound on its distance from chords. It shares no
 /// data with the path, which may change. Dofs that are not part of the spline move linearly, as in a SliceMotion. Times
@@ -51,4 +51,4 @@ class SplineCurve {
   std::vector<int> bound_of_;  ///< per slice
 };
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline trajectory_optimization_internal

@@ -4,7 +4,7 @@
 
 #include "kinegraph/trajectory_optimization/motion_problems.h"
 
-namespace kinegraph {
+namespace kinegraph::inline trajectory_optimization_internal {
 
 namespace {
 
@@ -142,4 +142,4 @@ SplineLayout layOutSpline(const Path& path, const SplineMotionOptions& options) 
   return layout;
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline trajectory_optimization_internal

@@ -8,8 +8,10 @@
 #include "kinegraph/trajectories/trajectory.h"
 
 namespace kinegraph {
-
 struct SplineMotionOptions;
+}
+
+namespace kinegraph::inline trajectory_optimization_internal {
 
 /// The layout of the variables c of a SplineMotion; x = M c + offset are those of the path.
 struct SplineLayout {
@@ -34,4 +36,4 @@ MatrixXd splineBasis(const TimeGrid& grid, const SplineMotionOptions& options);
 
 SplineLayout layOutSpline(const Path& path, const SplineMotionOptions& options);
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline trajectory_optimization_internal

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace kinegraph {
+namespace kinegraph::inline trajectory_optimization_internal {
 
 namespace {
 
@@ -96,4 +96,4 @@ void SplineMotions::addContacts(const SliceMotion& motion, Part part, double mar
   addContacts(motion, {middle, end}, margin, contacts);
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline trajectory_optimization_internal

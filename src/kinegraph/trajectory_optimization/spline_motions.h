@@ -4,7 +4,7 @@
 #include "kinegraph/komo/continuous_collisions.h"
 #include "kinegraph/trajectory_optimization/spline_curve.h"
 
-namespace kinegraph {
+namespace kinegraph::inline trajectory_optimization_internal {
 
 /// Motion of q along a spline. Checks are made on chords with a margin that is larger by the deviation of the spline;
 /// chords that fail are bisected until the deviation is negligible.
@@ -33,4 +33,4 @@ class SplineMotions final : public SliceMotions {
   MotionProbe& probe_;
 };
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline trajectory_optimization_internal

@@ -11,7 +11,7 @@
 #include "kinegraph/nlp/evaluation_sizes.h"
 #include "kinegraph/trajectory_optimization/spline_motions.h"
 
-namespace kinegraph {
+namespace kinegraph::inline trajectory_optimization_internal {
 
 namespace {
 
@@ -257,4 +257,4 @@ std::vector<std::string> SplineNlp::detailsOf(int row) const {
   return details;
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline trajectory_optimization_internal

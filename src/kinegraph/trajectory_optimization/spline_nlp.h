@@ -11,7 +11,7 @@
 #include "kinegraph/trajectory_optimization/spline_constraints.h"
 #include "kinegraph/trajectory_optimization/spline_curve.h"
 
-namespace kinegraph {
+namespace kinegraph::inline trajectory_optimization_internal {
 
 /// The problem of a SplineMotion: that of its Komo in the control points of the spline. Objectives that are
 /// `between_slices` constrain the spline, and reports refer to it. The rows of its samples come after those of the
@@ -70,4 +70,4 @@ class SplineNlp final : public Nlp, public InitialGuesses, public LazyConstraint
   bool separation_is_known_ = false;
 };
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline trajectory_optimization_internal

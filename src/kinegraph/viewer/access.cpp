@@ -5,7 +5,7 @@
 
 #include "kinegraph/common/text.h"
 
-namespace kinegraph {
+namespace kinegraph::inline viewer_internal {
 
 namespace {
 
@@ -51,4 +51,4 @@ std::string randomToken() {
   return token;
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline viewer_internal

@@ -3,7 +3,7 @@
 #include <string>
 #include <string_view>
 
-namespace kinegraph {
+namespace kinegraph::inline viewer_internal {
 
 /// The origin and target of a browser's request.
 struct RequestedAccess {
@@ -30,4 +30,4 @@ std::string_view framePolicy();
 
 std::string randomToken();
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline viewer_internal

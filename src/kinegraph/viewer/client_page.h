@@ -2,9 +2,9 @@
 
 #include <string_view>
 
-namespace kinegraph {
+namespace kinegraph::inline viewer_internal {
 
 /// Returns the browser client: a self-contained HTML page, embedded when the library is built.
 std::string_view clientPage();
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline viewer_internal

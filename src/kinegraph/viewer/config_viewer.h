@@ -13,17 +13,23 @@
 #include "kinegraph/viewer/messages/shown.h"
 #include "kinegraph/viewer/programmable_viewer.h"
 
+namespace kinegraph::inline api_internal {
+class ViewerPictures;
+}
+
+namespace kinegraph::inline viewer_internal {
+class ViewerServer;
+struct ViewerOptions;
+}
+
 namespace kinegraph {
 
 class Config;
 class Frame;
-class ViewerPictures;
 class ViewerRecording;
-class ViewerServer;
 struct Camera;
 struct CameraImage;
 struct ShownMotion;
-struct ViewerOptions;
 
 /// Shows a configuration in the browser. The server starts, and a browser opens, at the first call that shows
 /// something.
@@ -141,7 +147,7 @@ class ConfigViewer : public ProgrammableViewer {
   ViewerPictures& pictures();
 
  private:
-  friend class ViewerPictures;
+  friend class api_internal::ViewerPictures;
   friend class Config;
 
   void setScene(const std::shared_ptr<SceneTree>& scene);

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace kinegraph {
+namespace kinegraph::inline viewer_internal {
 
 void drawQuad(std::vector<std::uint8_t>& rgb, int width, const Quad& quad) {
   const int height = int(rgb.size() / 3) / width;
@@ -22,4 +22,4 @@ void drawQuad(std::vector<std::uint8_t>& rgb, int width, const Quad& quad) {
   }
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline viewer_internal

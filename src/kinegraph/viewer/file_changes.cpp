@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace kinegraph {
+namespace kinegraph::inline viewer_internal {
 
 using std::chrono::milliseconds;
 
@@ -37,4 +37,4 @@ bool FileChanges::settled(const FileStamps& now, Time time) {
   return time - since_ >= milliseconds(emptied ? 300 : 40);
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline viewer_internal

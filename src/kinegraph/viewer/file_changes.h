@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-namespace kinegraph {
+namespace kinegraph::inline viewer_internal {
 
 using FileStamps = std::map<std::string, FileStamp>;
 
@@ -32,4 +32,4 @@ class FileChanges {
   Time since_{};  ///< time of the first observation of `seen_`
 };
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline viewer_internal

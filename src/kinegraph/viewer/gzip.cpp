@@ -4,7 +4,7 @@
 #include <boost/crc.hpp>
 #include <cstdint>
 
-namespace kinegraph {
+namespace kinegraph::inline viewer_internal {
 
 namespace {
 
@@ -36,4 +36,4 @@ std::string gzipped(std::string_view data) {
   return text;
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline viewer_internal

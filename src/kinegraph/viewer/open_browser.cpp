@@ -9,7 +9,7 @@
 
 extern char** environ;
 
-namespace kinegraph {
+namespace kinegraph::inline viewer_internal {
 
 void openBrowser(const std::string& url) {
   const bool display = std::getenv("DISPLAY") || std::getenv("WAYLAND_DISPLAY");
@@ -26,4 +26,4 @@ void openBrowser(const std::string& url) {
   posix_spawn_file_actions_destroy(&quiet);
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline viewer_internal

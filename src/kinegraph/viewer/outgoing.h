@@ -3,7 +3,7 @@
 #include <memory>
 #include <string>
 
-namespace kinegraph {
+namespace kinegraph::inline viewer_internal {
 
 /// A message for a browser. Large ones are shared by all browsers.
 struct Outgoing {
@@ -11,4 +11,4 @@ struct Outgoing {
   bool binary;
 };
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline viewer_internal

@@ -8,7 +8,7 @@
 #include "kinegraph/viewer/messages/binary_messages.h"
 #include "kinegraph/viewer/messages/commands.h"
 
-namespace kinegraph {
+namespace kinegraph::inline viewer_internal {
 
 namespace {
 
@@ -258,4 +258,4 @@ void PageContent::addMessages(Seen& seen, std::vector<Outgoing>& out) const {
   seen = {revision_, dropped_ + samples_.size()};
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline viewer_internal

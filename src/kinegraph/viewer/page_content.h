@@ -16,7 +16,7 @@
 #include "kinegraph/viewer/messages/shown.h"
 #include "kinegraph/viewer/outgoing.h"
 
-namespace kinegraph {
+namespace kinegraph::inline viewer_internal {
 
 struct ControlCommand;
 
@@ -150,4 +150,4 @@ class PageContent {
   std::function<void()> on_change_;
 };
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline viewer_internal

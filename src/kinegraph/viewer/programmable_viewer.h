@@ -10,11 +10,13 @@
 
 #include "kinegraph/viewer/messages/shown.h"
 
-namespace kinegraph {
-
+namespace kinegraph::inline viewer_internal {
 class PageContent;
 struct PageControl;
 struct PageDrawing;
+}
+
+namespace kinegraph {
 
 /// Options of a control.
 struct ControlOptions {

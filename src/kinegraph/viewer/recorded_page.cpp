@@ -14,7 +14,7 @@
 #include "kinegraph/viewer/messages/binary_messages.h"
 #include "kinegraph/viewer/scene_items.h"
 
-namespace kinegraph {
+namespace kinegraph::inline viewer_internal {
 
 namespace {
 
@@ -191,4 +191,4 @@ std::string recordedScene(const Config& config, const ShownMotion* motion, const
   return recordedPage(scene, largest);
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline viewer_internal

@@ -7,7 +7,7 @@
 #include "kinegraph/scene/config.h"
 #include "kinegraph/viewer/shown_scene.h"
 
-namespace kinegraph {
+namespace kinegraph::inline viewer_internal {
 
 /// Returns the client's page with embedded messages, which it shows from a file without a program. Script and messages
 /// are compressed.
@@ -44,4 +44,4 @@ std::string recordedScene(const Config& config, const ShownMotion* motion = null
                           const std::string& title = "Kinegraph", std::shared_ptr<PageContent> content = nullptr,
                           std::size_t largest = 0);
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline viewer_internal

@@ -8,7 +8,7 @@
 #include "kinegraph/common/text.h"
 #include "kinegraph/viewer/recorded_page.h"
 
-namespace kinegraph {
+namespace kinegraph::inline viewer_internal {
 
 RunRecorder::RunRecorder(std::string path, const ShownScene& scene) : path_(std::move(path)) {
   if (!std::ofstream(path_, std::ios::binary)) throw FileError(cat("record: '", path_, "' cannot be written"));
@@ -51,4 +51,4 @@ void RunRecorder::write(const ShownScene& scene) {
   if (!file.flush()) throw FileError(cat("record: '", path_, "' cannot be written"));
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline viewer_internal

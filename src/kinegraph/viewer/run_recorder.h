@@ -6,7 +6,7 @@
 
 #include "kinegraph/viewer/shown_scene.h"
 
-namespace kinegraph {
+namespace kinegraph::inline viewer_internal {
 
 /// Records what a viewer shows, with times: of the simulation while one is shown, else of the clock. Not synchronized.
 class RunRecorder {
@@ -36,4 +36,4 @@ class RunRecorder {
   std::optional<double> run_time_;  ///< of the simulation, at the last call
 };
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline viewer_internal

@@ -7,7 +7,7 @@
 #include "kinegraph/viewer/config_viewer.h"
 #include "kinegraph/viewer/scene_items.h"
 
-namespace kinegraph {
+namespace kinegraph::inline viewer_internal {
 
 namespace {
 
@@ -195,4 +195,4 @@ bool SceneEdits::moveFrame(int id, const std::vector<double>& numbers) {
   return true;
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline viewer_internal

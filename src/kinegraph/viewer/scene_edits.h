@@ -11,7 +11,7 @@
 #include "kinegraph/scene/tree/scene_tree.h"
 #include "kinegraph/viewer/server.h"
 
-namespace kinegraph {
+namespace kinegraph::inline viewer_internal {
 
 /// Changes that users make in browsers: joint values and poses of frames. Browsers see the effect at once, on a copy of
 /// the scene; the program applies the changes to its own scene with takeInto. Any browser can undo the last 100 edits.
@@ -66,4 +66,4 @@ class SceneEdits {
   Rng random_;
 };
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline viewer_internal

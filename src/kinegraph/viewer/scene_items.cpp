@@ -9,7 +9,7 @@
 #include "kinegraph/kinematics/state.h"
 #include "kinegraph/scene/tree/scene_tree.h"
 
-namespace kinegraph {
+namespace kinegraph::inline viewer_internal {
 
 namespace {
 
@@ -156,4 +156,4 @@ void SceneItems::read(const Config& config) {
   }
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline viewer_internal

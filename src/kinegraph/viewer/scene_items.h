@@ -8,7 +8,7 @@
 #include "kinegraph/scene/tree/visual_meshes.h"
 #include "kinegraph/viewer/server.h"
 
-namespace kinegraph {
+namespace kinegraph::inline viewer_internal {
 
 /// The items by which a viewer shows a configuration. Values that depend on the structure are cached until it changes.
 class SceneItems {
@@ -59,4 +59,4 @@ std::string detailsOf(const FrameData& frame);
 /// Returns the world poses of all frames.
 std::vector<Pose> posesOf(const Config& config);
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline viewer_internal

@@ -10,7 +10,7 @@
 #include "kinegraph/viewer/shown_scene.h"
 #include "kinegraph/viewer/web_server.h"
 
-namespace kinegraph {
+namespace kinegraph::inline viewer_internal {
 
 class ViewerServer::Impl {
  public:
@@ -272,4 +272,4 @@ bool isHeadless() {
   return value && *value && std::strcmp(value, "0") != 0;
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline viewer_internal

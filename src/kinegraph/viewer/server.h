@@ -15,7 +15,7 @@
 #include "kinegraph/viewer/messages/shown.h"
 #include "kinegraph/viewer/messages/shown_run.h"
 
-namespace kinegraph {
+namespace kinegraph::inline viewer_internal {
 
 class ShownScene;
 
@@ -183,4 +183,4 @@ void openBrowser(const std::string& url);
 /// and no call waits.
 bool isHeadless();
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline viewer_internal

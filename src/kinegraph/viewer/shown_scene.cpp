@@ -10,7 +10,7 @@
 #include "kinegraph/viewer/messages/merged_lines.h"
 #include "kinegraph/viewer/messages/messages.h"
 
-namespace kinegraph {
+namespace kinegraph::inline viewer_internal {
 
 namespace {
 
@@ -409,4 +409,4 @@ std::vector<Outgoing> ShownScene::messagesSince(Seen& seen, double cell) const {
   return out;
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline viewer_internal

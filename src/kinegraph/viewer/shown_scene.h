@@ -11,7 +11,7 @@
 #include "kinegraph/viewer/page_content.h"
 #include "kinegraph/viewer/server.h"
 
-namespace kinegraph {
+namespace kinegraph::inline viewer_internal {
 
 struct FrameMessage;
 struct JointsMessage;
@@ -130,4 +130,4 @@ class ShownScene {
   std::uint64_t appearance_revision_ = 0, near_revision_ = 0, warnings_revision_ = 0;
 };
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline viewer_internal

@@ -5,7 +5,7 @@
 
 #include "kinegraph/viewer/recorded_page.h"
 
-namespace kinegraph {
+namespace kinegraph::inline viewer_internal {
 
 void ViewerState::press(const KeyCommand& command) {
   constexpr int kRight = 262, kLeft = 263;
@@ -94,4 +94,4 @@ std::string ViewerState::recording(std::size_t largest) const {
   return recordedPage(scene, largest);
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline viewer_internal

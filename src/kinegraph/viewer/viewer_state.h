@@ -11,7 +11,7 @@
 #include "kinegraph/viewer/run_recorder.h"
 #include "kinegraph/viewer/shown_scene.h"
 
-namespace kinegraph {
+namespace kinegraph::inline viewer_internal {
 
 /// The state that the program's threads share with the server's thread. The methods lock; direct access to the fields
 /// requires a lock on `mutex`.
@@ -46,4 +46,4 @@ struct ViewerState {
   std::string recording(std::size_t largest = 0) const;
 };
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline viewer_internal

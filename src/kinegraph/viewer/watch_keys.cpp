@@ -8,7 +8,7 @@
 #include "kinegraph/viewer/scene_items.h"
 #include "kinegraph/viewer/server.h"
 
-namespace kinegraph {
+namespace kinegraph::inline viewer_internal {
 
 std::string WatchKeys::help() {
   return "h: this help\na: moves every joint through its limits; any key stops it\ni: content of the scene and "
@@ -115,4 +115,4 @@ void WatchKeys::reportPicked() {
   report(cat(frame.name, " (", frame.id, ") at ", p.x(), " ", p.y(), " ", p.z(), "\n{ ", detailsOf(frame), " }"));
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline viewer_internal

@@ -7,7 +7,7 @@
 #include "kinegraph/scene/config.h"
 #include "kinegraph/viewer/config_viewer.h"
 
-namespace kinegraph {
+namespace kinegraph::inline viewer_internal {
 
 /// Handles keys while a file is watched: h shows help, a animates the joints, i reports the scene and the camera; c
 /// collisions, r samples random joints, x writes the scene as z.g, z.urdf, z.ply and z.dae, space describes the frame
@@ -41,4 +41,4 @@ class WatchKeys {
   bool logs_ = false;
 };
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline viewer_internal

@@ -12,7 +12,7 @@
 #include "kinegraph/viewer/client_page.h"
 #include "kinegraph/viewer/gzip.h"
 
-namespace kinegraph {
+namespace kinegraph::inline viewer_internal {
 
 namespace asio = boost::asio;
 namespace beast = boost::beast;
@@ -323,4 +323,4 @@ const std::string& WebServer::url() const { return impl_->url(); }
 
 void WebServer::wake() { impl_->wake(); }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline viewer_internal

@@ -6,7 +6,7 @@
 
 #include "kinegraph/viewer/viewer_state.h"
 
-namespace kinegraph {
+namespace kinegraph::inline viewer_internal {
 
 /// Serves the page by HTTP, and each browser by a websocket, on a thread of its own. Only the implementation includes
 /// Boost.Beast, which is slow to compile.
@@ -30,4 +30,4 @@ class WebServer {
   std::unique_ptr<Impl> impl_;
 };
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline viewer_internal

@@ -1,4 +1,4 @@
-#include "kinegraph/geometry/distance/box_box_distance.h"
+#include "kinegraph/geometry/distance/closed_form/box_box_distance.h"
 
 #include <gtest/gtest.h>
 

@@ -1,10 +1,10 @@
-#include "kinegraph/geometry/distance/box_distance.h"
+#include "kinegraph/geometry/distance/closed_form/box_distance.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "kinegraph/geometry/distance/box_box_distance.h"
+#include "kinegraph/geometry/distance/closed_form/box_box_distance.h"
 #include "tests/support/box_samples.h"
 
 using namespace kinegraph;

@@ -1,4 +1,4 @@
-#include "kinegraph/geometry/distance/box_tree.h"
+#include "kinegraph/geometry/distance/closed_form/box_tree.h"
 
 #include <gtest/gtest.h>
 

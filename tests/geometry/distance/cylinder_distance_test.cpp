@@ -1,4 +1,4 @@
-#include "kinegraph/geometry/distance/cylinder_distance.h"
+#include "kinegraph/geometry/distance/closed_form/cylinder_distance.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "kinegraph/task_planning/search/guided_motion.h"
+#include "kinegraph/task_planning/motions/guided_motion.h"
 
 #include <gtest/gtest.h>
 

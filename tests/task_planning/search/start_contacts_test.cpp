@@ -1,4 +1,4 @@
-#include "kinegraph/task_planning/search/start_contacts.h"
+#include "kinegraph/task_planning/motions/start_contacts.h"
 
 #include <gtest/gtest.h>
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <numeric>
 
-namespace kinegraph {
+namespace kinegraph::inline geometry_internal {
 
 BodyTree::BodyTree(std::vector<std::shared_ptr<const CollisionBody>> own_bodies, std::vector<Vector3d> own_points)
     : bodies(std::move(own_bodies)), points(std::move(own_points)) {
@@ -45,4 +45,4 @@ int BodyTree::build(std::vector<int>& order, int first, int last) {
   return index;
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline geometry_internal

@@ -5,7 +5,7 @@
 
 #include "kinegraph/geometry/distance/collision_body.h"
 
-namespace kinegraph {
+namespace kinegraph::inline geometry_internal {
 
 /// The convex parts of a compound in a binary tree of bounding spheres. Local coordinates.
 struct BodyTree {
@@ -27,4 +27,4 @@ struct BodyTree {
   int build(std::vector<int>& order, int first, int last);
 };
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline geometry_internal

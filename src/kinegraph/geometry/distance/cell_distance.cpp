@@ -4,15 +4,15 @@
 #include <array>
 #include <cmath>
 
-#include "kinegraph/geometry/distance/box_box_distance.h"
-#include "kinegraph/geometry/distance/box_distance.h"
 #include "kinegraph/geometry/distance/cell_field.h"
+#include "kinegraph/geometry/distance/closed_form/box_box_distance.h"
+#include "kinegraph/geometry/distance/closed_form/box_distance.h"
 #include "kinegraph/geometry/distance/convex_distance.h"
 #include "kinegraph/geometry/distance/grid_distance.h"
 #include "kinegraph/geometry/distance/grid_field.h"
 #include "kinegraph/geometry/distance/proximity.h"
 
-namespace kinegraph {
+namespace kinegraph::inline geometry_internal {
 
 namespace {
 
@@ -189,4 +189,4 @@ double distanceToCells(const CollisionBody& convex, const RigidTransform& X_WA, 
   return near.distance - convex.radius();
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline geometry_internal

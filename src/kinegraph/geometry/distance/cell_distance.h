@@ -1,9 +1,9 @@
 #pragma once
 
+#include "kinegraph/geometry/distance/closed_form/nearest_points.h"
 #include "kinegraph/geometry/distance/collision_body.h"
-#include "kinegraph/geometry/distance/nearest_points.h"
 
-namespace kinegraph {
+namespace kinegraph::inline geometry_internal {
 
 /// Whether a body is a union of solid cells.
 bool hasCells(const CollisionBody& body);
@@ -19,4 +19,4 @@ NearestPoints convexToCells(const CollisionBody& core, const RigidTransform& X_W
 double distanceToCells(const CollisionBody& convex, const RigidTransform& X_WA, const CollisionBody& cells,
                        const RigidTransform& X_WB, double most);
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline geometry_internal

@@ -6,7 +6,7 @@
 #include "kinegraph/geometry/distance/collision_body.h"
 #include "kinegraph/geometry/shapes/cells.h"
 
-namespace kinegraph {
+namespace kinegraph::inline geometry_internal {
 
 namespace {
 
@@ -172,4 +172,4 @@ Vector3d CellField::wayOut(const Vector3d& point) const {
   return way;
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline geometry_internal

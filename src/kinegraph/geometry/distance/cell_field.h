@@ -8,8 +8,10 @@
 #include "kinegraph/geometry/shapes/geometry.h"
 
 namespace kinegraph {
-
 class CollisionBody;
+}
+
+namespace kinegraph::inline geometry_internal {
 
 /// The solid cubes of a `cells` shape: a lower bound of the distance from them, computed once per cell, and a tree of
 /// ever larger cubes. Local coordinates, m.
@@ -57,4 +59,4 @@ struct CellField {
   void buildLevels();
 };
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline geometry_internal

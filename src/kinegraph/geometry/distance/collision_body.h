@@ -5,10 +5,12 @@
 
 #include "kinegraph/geometry/shapes/geometry.h"
 
-namespace kinegraph {
-
+namespace kinegraph::inline geometry_internal {
 struct BodyTree;
 struct GridField;
+}
+
+namespace kinegraph {
 
 /// The corners of a convex polytope, and the neighbors of each if there are many. Local coordinates, m.
 struct Hull {

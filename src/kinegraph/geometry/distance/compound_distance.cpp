@@ -5,7 +5,7 @@
 #include "kinegraph/geometry/distance/body_tree.h"
 #include "kinegraph/geometry/distance/grid_field.h"
 
-namespace kinegraph {
+namespace kinegraph::inline geometry_internal {
 
 namespace {
 
@@ -98,4 +98,4 @@ Proximity nearestParts(const CollisionBody& a, const RigidTransform& X_WA, const
   return Nearest(side_a, side_b).find();
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline geometry_internal

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "kinegraph/geometry/distance/nearest_points.h"
+#include "kinegraph/geometry/distance/closed_form/nearest_points.h"
 
-namespace kinegraph {
+namespace kinegraph::inline geometry_internal {
 
 namespace {
 
@@ -209,4 +209,4 @@ std::optional<Vector3d> middleOfContact(const CorePair& pair, const Vector3d& m)
   return middle.x() * x + middle.y() * y + height * m;
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline geometry_internal

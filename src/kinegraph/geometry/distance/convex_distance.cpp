@@ -4,7 +4,7 @@
 #include "kinegraph/geometry/distance/core_pair.h"
 #include "kinegraph/geometry/distance/separation.h"
 
-namespace kinegraph {
+namespace kinegraph::inline geometry_internal {
 
 namespace {
 
@@ -82,4 +82,4 @@ NearestPoints convexToConvex(const CollisionBody& a, const RigidTransform& X_WA,
   return near;
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline geometry_internal

@@ -1,9 +1,9 @@
 #pragma once
 
+#include "kinegraph/geometry/distance/closed_form/nearest_points.h"
 #include "kinegraph/geometry/distance/collision_body.h"
-#include "kinegraph/geometry/distance/nearest_points.h"
 
-namespace kinegraph {
+namespace kinegraph::inline geometry_internal {
 
 /// Nearest points of two convex cores of any kind. Exact to rounding for separated cores and overlapping polytopes; for
 /// overlapping curved cores see `shortestPush`. If an edge or a face is equally near, some point of it is the witness.
@@ -11,4 +11,4 @@ namespace kinegraph {
 NearestPoints convexToConvex(const CollisionBody& a, const RigidTransform& X_WA, const CollisionBody& b,
                              const RigidTransform& X_WB);
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline geometry_internal

@@ -5,7 +5,7 @@
 
 #include "kinegraph/geometry/distance/collision_body.h"
 
-namespace kinegraph {
+namespace kinegraph::inline geometry_internal {
 
 /// A point w = a - b of the Minkowski difference of two cores A - B, in the frame of A.
 struct MinkowskiPoint {
@@ -84,4 +84,4 @@ double findWitnesses(const CorePair& pair, std::span<const MinkowskiPoint> candi
 /// any of them may be returned. Source: van den Bergen, Collision Detection in Interactive 3D Environments, 4.3.8.
 Deepest shortestPush(const CorePair& pair, const Simplex& start);
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline geometry_internal

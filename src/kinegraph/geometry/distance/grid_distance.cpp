@@ -8,7 +8,7 @@
 #include "kinegraph/geometry/distance/convex_distance.h"
 #include "kinegraph/geometry/distance/grid_field.h"
 
-namespace kinegraph {
+namespace kinegraph::inline geometry_internal {
 
 namespace {
 
@@ -123,4 +123,4 @@ NearestPoints convexToGrid(const CollisionBody& core, const RigidTransform& X_WA
   return near;
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline geometry_internal

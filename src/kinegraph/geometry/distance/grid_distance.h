@@ -1,9 +1,9 @@
 #pragma once
 
+#include "kinegraph/geometry/distance/closed_form/nearest_points.h"
 #include "kinegraph/geometry/distance/collision_body.h"
-#include "kinegraph/geometry/distance/nearest_points.h"
 
-namespace kinegraph {
+namespace kinegraph::inline geometry_internal {
 
 /// Distance of a convex core a from a grid b: the least value of the grid's field (see GridField) on the core. Exact
 /// for points. For other cores it is the least value found by descent from a few dozen points, so a field minimum
@@ -15,4 +15,4 @@ NearestPoints convexToGrid(const CollisionBody& core, const RigidTransform& X_WA
 /// The point of a convex core nearest to a point, which may be inside. Local coordinates.
 Vector3d nearestInCore(const CollisionBody& body, const Vector3d& point);
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline geometry_internal

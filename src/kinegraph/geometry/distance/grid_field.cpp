@@ -7,7 +7,7 @@
 #include "kinegraph/geometry/distance/collision_body.h"
 #include "kinegraph/geometry/shapes/isosurface.h"
 
-namespace kinegraph {
+namespace kinegraph::inline geometry_internal {
 
 namespace {
 
@@ -120,4 +120,4 @@ double GridField::value(const Vector3d& point, Vector3d& gradient) const {
   return distance;
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline geometry_internal

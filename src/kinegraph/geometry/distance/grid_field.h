@@ -5,8 +5,11 @@
 #include "kinegraph/geometry/shapes/geometry.h"
 
 namespace kinegraph {
-
 class CollisionBody;
+}
+
+namespace kinegraph::inline geometry_internal {
+
 struct CellField;
 
 /// The numbers of a grid as a function of space: interpolated by smooth cubics (Catmull & Rom) along each axis. Beyond
@@ -32,4 +35,4 @@ struct GridField {
       surface;  ///< zero crossings on the edges of the grid; its corners if there are none; corners around solid cells
 };
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline geometry_internal

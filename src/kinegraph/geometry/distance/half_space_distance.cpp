@@ -6,7 +6,7 @@
 #include "kinegraph/geometry/distance/body_tree.h"
 #include "kinegraph/geometry/distance/grid_field.h"
 
-namespace kinegraph {
+namespace kinegraph::inline geometry_internal {
 
 namespace {
 
@@ -103,4 +103,4 @@ Proximity toHalfSpace(const CollisionBody& body, const RigidTransform& X_WB, con
   return near;
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline geometry_internal

@@ -56,7 +56,7 @@ int Hull::farthest(const Vector3d& direction) const {
   return best;
 }
 
-Hull makeHull(const std::vector<Vector3d>& points, const Vector3d& center, double& inner) {
+Hull geometry_internal::makeHull(const std::vector<Vector3d>& points, const Vector3d& center, double& inner) {
   Hull hull;
   inner = 0.;
   if (!spanVolume(points)) {

@@ -3,17 +3,17 @@
 #include <algorithm>
 #include <cmath>
 
-#include "kinegraph/geometry/distance/box_box_distance.h"
 #include "kinegraph/geometry/distance/cell_distance.h"
 #include "kinegraph/geometry/distance/cell_field.h"
+#include "kinegraph/geometry/distance/closed_form/box_box_distance.h"
+#include "kinegraph/geometry/distance/closed_form/cylinder_distance.h"
 #include "kinegraph/geometry/distance/compound_distance.h"
 #include "kinegraph/geometry/distance/convex_distance.h"
-#include "kinegraph/geometry/distance/cylinder_distance.h"
 #include "kinegraph/geometry/distance/grid_distance.h"
 #include "kinegraph/geometry/distance/grid_field.h"
 #include "kinegraph/geometry/distance/half_space_distance.h"
 
-namespace kinegraph {
+namespace kinegraph::inline geometry_internal {
 
 namespace {
 
@@ -158,4 +158,4 @@ double squaredPointToCore(const CollisionBody& body, const RigidTransform& X_WB,
   }
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline geometry_internal

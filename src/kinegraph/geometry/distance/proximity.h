@@ -2,7 +2,7 @@
 
 #include "kinegraph/geometry/distance/collision_body.h"
 
-namespace kinegraph {
+namespace kinegraph::inline geometry_internal {
 
 /// Distance of two bodies: distance = normal . (point_a - point_b). A small motion of the bodies changes it by
 /// rate * normal . (velocity of point_a - velocity of point_b).
@@ -33,4 +33,4 @@ inline bool mayBeWithin(const CollisionBody& body, const RigidTransform& X_WB, c
   return squaredPointToCore(body, X_WB, point) <= reach * reach;
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline geometry_internal

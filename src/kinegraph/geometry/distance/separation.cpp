@@ -5,7 +5,7 @@
 
 #include "kinegraph/geometry/distance/core_pair.h"
 
-namespace kinegraph {
+namespace kinegraph::inline geometry_internal {
 
 namespace {
 
@@ -65,4 +65,4 @@ std::optional<SeparatingDirection> separation(const CollisionBody& a, const Rigi
   return std::nullopt;
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline geometry_internal

@@ -4,7 +4,7 @@
 
 #include "kinegraph/geometry/distance/collision_body.h"
 
-namespace kinegraph {
+namespace kinegraph::inline geometry_internal {
 
 /// Corners of two bodies to start support searches from.
 struct SupportCorners {
@@ -30,4 +30,4 @@ std::optional<SeparatingDirection> separation(const CollisionBody& a, const Rigi
                                               const CollisionBody& b, const RigidTransform& X_WB, double margin,
                                               SupportCorners& corners);
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline geometry_internal

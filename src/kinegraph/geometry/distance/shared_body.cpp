@@ -5,7 +5,7 @@
 #include <tuple>
 #include <vector>
 
-namespace kinegraph {
+namespace kinegraph::inline geometry_internal {
 
 namespace {
 
@@ -66,4 +66,4 @@ bool hasSharedBody(const Geometry& geometry) {
   return !shared->body.expired();
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline geometry_internal

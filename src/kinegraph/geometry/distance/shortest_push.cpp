@@ -4,7 +4,7 @@
 
 #include "kinegraph/geometry/distance/core_pair.h"
 
-namespace kinegraph {
+namespace kinegraph::inline geometry_internal {
 
 namespace {
 
@@ -223,4 +223,4 @@ class Polytope {
 
 Deepest shortestPush(const CorePair& pair, const Simplex& start) { return Polytope(pair).shortestPush(start); }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline geometry_internal

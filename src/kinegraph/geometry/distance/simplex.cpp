@@ -1,6 +1,6 @@
 #include "kinegraph/geometry/distance/core_pair.h"
 
-namespace kinegraph {
+namespace kinegraph::inline geometry_internal {
 
 namespace {
 
@@ -101,4 +101,4 @@ Vector3d Simplex::reduce(bool& inside) {
   return nearest.point;
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline geometry_internal

@@ -2,7 +2,7 @@
 
 #include "kinegraph/geometry/distance/core_pair.h"
 
-namespace kinegraph {
+namespace kinegraph::inline geometry_internal {
 
 namespace {
 
@@ -195,4 +195,4 @@ bool refine(const CorePair& pair, Deepest& deepest) {
   return true;
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline geometry_internal

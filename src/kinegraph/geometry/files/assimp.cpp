@@ -16,7 +16,7 @@
 #include "kinegraph/common/file_paths.h"
 #include "kinegraph/common/text.h"
 
-namespace kinegraph {
+namespace kinegraph::inline geometry_internal {
 
 namespace {
 
@@ -135,4 +135,4 @@ AssimpScene readAssimpScene(const std::string& path, std::vector<std::string>* f
   return scene;
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline geometry_internal

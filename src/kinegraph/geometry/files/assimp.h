@@ -10,7 +10,7 @@
 
 #include "kinegraph/common/dynamic_library.h"
 
-namespace kinegraph {
+namespace kinegraph::inline geometry_internal {
 
 // clang-format off
 #define KINEGRAPH_ASSIMP_FUNCTIONS(X) \
@@ -34,4 +34,4 @@ using AssimpScene = std::unique_ptr<const aiScene, decltype(&aiReleaseImport)>;
 /// Throws FileError.
 AssimpScene readAssimpScene(const std::string& path, std::vector<std::string>* files = nullptr);
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline geometry_internal

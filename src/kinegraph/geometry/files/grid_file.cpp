@@ -13,7 +13,7 @@
 #include "kinegraph/geometry/files/h5_file.h"
 #include "kinegraph/geometry/shapes/isosurface.h"
 
-namespace kinegraph {
+namespace kinegraph::inline geometry_internal {
 
 namespace {
 
@@ -175,4 +175,4 @@ GridFile readGridFile(const std::string& path) {
   return file;
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline geometry_internal

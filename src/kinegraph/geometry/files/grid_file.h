@@ -4,7 +4,7 @@
 
 #include "kinegraph/geometry/shapes/geometry.h"
 
-namespace kinegraph {
+namespace kinegraph::inline geometry_internal {
 
 struct GridFile {
   Grid grid;
@@ -20,4 +20,4 @@ struct GridFile {
 /// Throws FileError with the file, the content found and the content expected.
 GridFile readGridFile(const std::string& path);
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline geometry_internal

@@ -8,7 +8,7 @@
 #include "kinegraph/common/errors.h"
 #include "kinegraph/common/text.h"
 
-namespace kinegraph {
+namespace kinegraph::inline geometry_internal {
 
 namespace {
 
@@ -185,4 +185,4 @@ H5Dataset H5File::dataset(std::string_view name) const {
   return data;
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline geometry_internal

@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-namespace kinegraph {
+namespace kinegraph::inline geometry_internal {
 
 /// A table of numbers from an HDF5 file, row-major, as doubles.
 struct H5Dataset {
@@ -52,4 +52,4 @@ class H5File {
   std::uint64_t root_ = 0;
 };
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline geometry_internal

@@ -4,7 +4,7 @@
 
 #include "kinegraph/geometry/files/image_file.h"
 
-namespace kinegraph {
+namespace kinegraph::inline geometry_internal {
 
 /// PNG of all color types and depths, interlaced or not. Throws FileError.
 /// Source: Portable Network Graphics Specification, 2nd ed., W3C 2003.
@@ -18,4 +18,4 @@ Pixels decodeJpeg(std::string_view bytes);
 /// Decompresses a zlib stream, at most `limit` bytes. Throws FileError.
 std::string unpack(std::string_view bytes, std::size_t limit);
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline geometry_internal

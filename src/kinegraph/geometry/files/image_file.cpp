@@ -9,7 +9,7 @@
 #include "kinegraph/common/text.h"
 #include "kinegraph/geometry/files/image_decoders.h"
 
-namespace kinegraph {
+namespace kinegraph::inline geometry_internal {
 
 namespace {
 
@@ -96,4 +96,4 @@ Image encodePng(const Pixels& pixels) {
   return image;
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline geometry_internal

@@ -7,7 +7,7 @@
 
 #include "kinegraph/geometry/shapes/geometry.h"
 
-namespace kinegraph {
+namespace kinegraph::inline geometry_internal {
 
 /// Colors, rows from top to bottom.
 struct Pixels {
@@ -31,4 +31,4 @@ Pixels decodeImage(const Image& image);
 /// Encodes pixels as an uncompressed PNG file.
 Image encodePng(const Pixels& pixels);
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline geometry_internal

@@ -6,7 +6,7 @@
 #include "kinegraph/common/text.h"
 #include "kinegraph/geometry/files/image_decoders.h"
 
-namespace kinegraph {
+namespace kinegraph::inline geometry_internal {
 
 namespace {
 
@@ -51,4 +51,4 @@ std::string unpack(std::string_view bytes, std::size_t limit) {
   return out;
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline geometry_internal

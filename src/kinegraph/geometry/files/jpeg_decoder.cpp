@@ -9,7 +9,7 @@
 #include "kinegraph/geometry/files/image_decoders.h"
 #include "kinegraph/geometry/files/jpeg_entropy.h"
 
-namespace kinegraph {
+namespace kinegraph::inline geometry_internal {
 
 namespace {
 
@@ -266,4 +266,4 @@ class JpegDecoder {
 
 Pixels decodeJpeg(std::string_view bytes) { return JpegDecoder(bytes).decode(); }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline geometry_internal

@@ -2,7 +2,7 @@
 
 #include "kinegraph/common/errors.h"
 
-namespace kinegraph {
+namespace kinegraph::inline geometry_internal {
 
 namespace {
 
@@ -155,4 +155,4 @@ void JpegEntropyReader::refineWaves(const JpegCode& ac, JpegBlock& block) {
   --empty_blocks_;
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline geometry_internal

@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-namespace kinegraph {
+namespace kinegraph::inline geometry_internal {
 
 /// Amplitudes of the cosine waves of a block of 8 x 8 pixels, row by row of frequencies.
 using JpegBlock = std::array<std::int16_t, 64>;
@@ -73,4 +73,4 @@ class JpegEntropyReader {
   int empty_blocks_ = 0;  ///< number of following blocks without changes
 };
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline geometry_internal

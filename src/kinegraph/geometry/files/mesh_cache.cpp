@@ -11,7 +11,7 @@
 #include "kinegraph/geometry/files/mesh_file.h"
 #include "kinegraph/geometry/shapes/scale_mesh.h"
 
-namespace kinegraph {
+namespace kinegraph::inline geometry_internal {
 
 namespace {
 
@@ -98,4 +98,4 @@ std::shared_ptr<const Mesh> sharedMeshFile(const std::string& path, const Vector
   return entry->mesh;
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline geometry_internal

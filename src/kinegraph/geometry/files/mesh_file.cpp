@@ -18,7 +18,7 @@
 #include "kinegraph/geometry/files/mesh_textures.h"
 #include "kinegraph/geometry/shapes/scale_mesh.h"
 
-namespace kinegraph {
+namespace kinegraph::inline geometry_internal {
 
 namespace {
 
@@ -253,4 +253,4 @@ Mesh readMeshFile(const std::string& path, std::vector<std::string>* files) {
   return mesh;
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline geometry_internal

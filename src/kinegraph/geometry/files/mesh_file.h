@@ -6,7 +6,7 @@
 
 #include "kinegraph/geometry/shapes/geometry.h"
 
-namespace kinegraph {
+namespace kinegraph::inline geometry_internal {
 
 /// Reads a mesh file (stl, obj, ply, dae, glb and other formats of assimp) as one mesh, with node transforms applied
 /// and a color per vertex from vertex colors or materials. Vertices of a part with equal positions, colors and texture
@@ -35,4 +35,4 @@ Mesh readMshMesh(const std::string& path);
 /// FileError.
 Mesh readTriMesh(const std::string& path);
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline geometry_internal

@@ -9,7 +9,7 @@
 #include "kinegraph/common/file_paths.h"
 #include "kinegraph/common/text.h"
 
-namespace kinegraph {
+namespace kinegraph::inline geometry_internal {
 
 namespace {
 
@@ -69,4 +69,4 @@ void checkMeshHeader(const std::string& path) {
                       " bytes can hold"));
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline geometry_internal

@@ -8,7 +8,7 @@
 #include "kinegraph/geometry/files/assimp.h"
 #include "kinegraph/geometry/files/image_file.h"
 
-namespace kinegraph {
+namespace kinegraph::inline geometry_internal {
 
 std::shared_ptr<const Image> imageBeside(const std::string& mesh_path, const std::string& name,
                                          std::vector<std::string>* files) {
@@ -63,4 +63,4 @@ void addTexture(Mesh& mesh, std::size_t first_vertex, const std::vector<std::arr
       {std::uint32_t(first_triangle), std::uint32_t(mesh.triangles.size() - first_triangle), std::move(image)});
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline geometry_internal

@@ -9,7 +9,7 @@
 
 struct aiScene;
 
-namespace kinegraph {
+namespace kinegraph::inline geometry_internal {
 
 /// Reads a picture referenced by a mesh file, from the same folder. Returns null if it is missing or neither PNG nor
 /// JPEG: the mesh is then shown in its colors. Appends the paths of the files that it looks for to `files`.
@@ -39,4 +39,4 @@ class MeshTextures {
 void addTexture(Mesh& mesh, std::size_t first_vertex, const std::vector<std::array<float, 2>>& coordinates,
                 std::size_t first_triangle, std::shared_ptr<const Image> image);
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline geometry_internal

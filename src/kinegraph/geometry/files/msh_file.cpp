@@ -7,7 +7,7 @@
 #include "kinegraph/common/text.h"
 #include "kinegraph/geometry/files/mesh_file.h"
 
-namespace kinegraph {
+namespace kinegraph::inline geometry_internal {
 
 Mesh readMshMesh(const std::string& path) {
   std::ifstream stream(path, std::ios::binary);
@@ -45,4 +45,4 @@ Mesh readMshMesh(const std::string& path) {
   return mesh;
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline geometry_internal

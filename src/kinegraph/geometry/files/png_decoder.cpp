@@ -8,7 +8,7 @@
 #include "kinegraph/common/text.h"
 #include "kinegraph/geometry/files/image_decoders.h"
 
-namespace kinegraph {
+namespace kinegraph::inline geometry_internal {
 
 namespace {
 
@@ -170,4 +170,4 @@ Pixels decodePng(std::string_view bytes) {
   return PngDecoder(*header, palette).decode(packed);
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline geometry_internal

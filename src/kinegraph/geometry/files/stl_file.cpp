@@ -9,7 +9,7 @@
 #include "kinegraph/common/text.h"
 #include "kinegraph/geometry/files/mesh_file.h"
 
-namespace kinegraph {
+namespace kinegraph::inline geometry_internal {
 
 namespace {
 
@@ -129,4 +129,4 @@ Mesh readStlMesh(std::string_view bytes, const std::string& path) {
   return builder.take();
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline geometry_internal

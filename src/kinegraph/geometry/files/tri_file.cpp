@@ -6,7 +6,7 @@
 #include "kinegraph/common/text.h"
 #include "kinegraph/geometry/files/mesh_file.h"
 
-namespace kinegraph {
+namespace kinegraph::inline geometry_internal {
 
 Mesh readTriMesh(const std::string& path) {
   std::ifstream in(path);
@@ -38,4 +38,4 @@ Mesh readTriMesh(const std::string& path) {
   return mesh;
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline geometry_internal

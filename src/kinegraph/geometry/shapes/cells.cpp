@@ -6,7 +6,7 @@
 #include "kinegraph/common/errors.h"
 #include "kinegraph/common/text.h"
 
-namespace kinegraph {
+namespace kinegraph::inline geometry_internal {
 
 namespace {
 
@@ -107,4 +107,4 @@ void checkCells(const Grid& grid, const Vector3d& size) {
 
 Mesh cellsSurface(const Grid& grid, const Vector3d& size) { return CellFaces(grid, size).build(); }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline geometry_internal

@@ -2,7 +2,7 @@
 
 #include "kinegraph/geometry/shapes/geometry.h"
 
-namespace kinegraph {
+namespace kinegraph::inline geometry_internal {
 
 /// The shape `cells`: the solid ones among equal cubes that fill a box.
 inline constexpr ShapeType kCells = ShapeType(17);
@@ -19,4 +19,4 @@ void checkCells(const Grid& grid, const Vector3d& size);
 /// The faces between solid cells and others, and at the sides of the box. Occupied cells are orange, unseen ones gray.
 Mesh cellsSurface(const Grid& grid, const Vector3d& size);
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline geometry_internal

@@ -11,7 +11,7 @@ extern "C" {
 #include <libqhull_r/qhull_ra.h>
 }
 
-namespace kinegraph {
+namespace kinegraph::inline geometry_internal {
 
 namespace {
 
@@ -101,4 +101,4 @@ Mesh convexHull(const std::vector<Vector3d>& points) {
   return mesh;
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline geometry_internal

@@ -2,7 +2,7 @@
 
 #include "kinegraph/geometry/shapes/geometry.h"
 
-namespace kinegraph {
+namespace kinegraph::inline geometry_internal {
 
 /// Returns whether the points are not coplanar, by more than 1e-9 of their extent. Throws ValueError for non-finite
 /// coordinates.
@@ -12,4 +12,4 @@ bool spanVolume(const std::vector<Vector3d>& points);
 /// coplanar points and non-finite coordinates.
 Mesh convexHull(const std::vector<Vector3d>& points);
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline geometry_internal

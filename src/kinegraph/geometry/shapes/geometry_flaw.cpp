@@ -6,7 +6,7 @@
 #include "kinegraph/common/text.h"
 #include "kinegraph/geometry/shapes/shape_kinds.h"
 
-namespace kinegraph {
+namespace kinegraph::inline geometry_internal {
 
 namespace {
 
@@ -55,4 +55,4 @@ std::string geometryFlaw(const Geometry& geometry) {
   return flaw;
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline geometry_internal

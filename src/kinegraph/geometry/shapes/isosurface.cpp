@@ -7,7 +7,7 @@
 #include "kinegraph/common/errors.h"
 #include "kinegraph/common/text.h"
 
-namespace kinegraph {
+namespace kinegraph::inline geometry_internal {
 
 namespace {
 
@@ -171,4 +171,4 @@ Grid resampled(const Grid& grid, const std::array<int, 3>& cells) {
   return out;
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline geometry_internal

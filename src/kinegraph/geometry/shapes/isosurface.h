@@ -2,7 +2,7 @@
 
 #include "kinegraph/geometry/shapes/geometry.h"
 
-namespace kinegraph {
+namespace kinegraph::inline geometry_internal {
 
 /// Extracts the zero level set of a grid as triangles with normals to larger values; the grid fills a box of that size
 /// (m) centered at the origin. Every vertex lies on an edge between two grid points, at the zero of the linear
@@ -19,4 +19,4 @@ Grid resampled(const Grid& grid, const std::array<int, 3>& cells);
 /// Throws ValueError unless the grid has at least 2 points per axis and the matching number of finite values.
 void checkGrid(const Grid& grid);
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline geometry_internal

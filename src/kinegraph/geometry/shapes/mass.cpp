@@ -7,7 +7,7 @@
 #include "kinegraph/geometry/shapes/shape_kinds.h"
 #include "kinegraph/geometry/shapes/tessellation.h"
 
-namespace kinegraph {
+namespace kinegraph::inline geometry_internal {
 
 namespace {
 
@@ -56,4 +56,4 @@ ShellMass shellMass(const Geometry& geometry) {
   return meshShell(mesh);
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline geometry_internal

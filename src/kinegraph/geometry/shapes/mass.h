@@ -2,7 +2,7 @@
 
 #include "kinegraph/geometry/shapes/geometry.h"
 
-namespace kinegraph {
+namespace kinegraph::inline geometry_internal {
 
 /// Mass properties of a surface of uniform thickness.
 struct ShellMass {
@@ -19,4 +19,4 @@ ShellMass sphereShell(double radius);
 /// without a surface.
 ShellMass shellMass(const Geometry& geometry);
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline geometry_internal

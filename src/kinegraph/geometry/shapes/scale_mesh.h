@@ -4,7 +4,7 @@
 
 #include "kinegraph/geometry/shapes/geometry.h"
 
-namespace kinegraph {
+namespace kinegraph::inline geometry_internal {
 
 /// Turns the triangles of a mesh from the given one on, so that their other side is outside.
 inline void turnTriangles(Mesh& mesh, std::size_t first = 0) {
@@ -17,4 +17,4 @@ inline void scaleMesh(Mesh& mesh, const Vector3d& factors) {
   if (factors.prod() < 0.) turnTriangles(mesh);
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline geometry_internal

@@ -9,7 +9,7 @@
 #include "kinegraph/geometry/shapes/isosurface.h"
 #include "kinegraph/geometry/shapes/swept_surfaces.h"
 
-namespace kinegraph {
+namespace kinegraph::inline geometry_internal {
 
 namespace {
 
@@ -219,4 +219,4 @@ double shapeHeight(ShapeType type, const std::vector<double>& size) {
   return kind.extent ? kind.extent(size).z() : 0.;
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline geometry_internal

@@ -8,7 +8,7 @@
 #include "kinegraph/geometry/shapes/geometry.h"
 #include "kinegraph/geometry/shapes/mass.h"
 
-namespace kinegraph {
+namespace kinegraph::inline geometry_internal {
 
 /// Collision geometry of a shape: a core swept by a ball. The axis of a core, if any, is z. Lengths in m.
 struct ShapeCore {
@@ -78,4 +78,4 @@ const ShapeKind& shapeKind(ShapeType type);
 /// Extent of a shape along its own z axis, m; 0 for shapes that neither stand on nor carry others.
 double shapeHeight(ShapeType type, const std::vector<double>& size);
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline geometry_internal

@@ -7,7 +7,7 @@
 #include "kinegraph/common/text.h"
 #include "kinegraph/geometry/shapes/shape_kinds.h"
 
-namespace kinegraph {
+namespace kinegraph::inline geometry_internal {
 
 namespace {
 
@@ -74,4 +74,4 @@ std::vector<double> checkedSize(ShapeType type, std::vector<double> size, std::s
   return size;
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline geometry_internal

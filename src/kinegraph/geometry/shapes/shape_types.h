@@ -7,7 +7,7 @@
 
 #include "kinegraph/geometry/shapes/geometry.h"
 
-namespace kinegraph {
+namespace kinegraph::inline geometry_internal {
 
 /// All shape types except `none`, with their names in files.
 const std::vector<std::pair<std::string, ShapeType>>& shapeTypeNames();
@@ -24,4 +24,4 @@ ShapeType shapeTypeFromName(std::string_view name);
 /// negative or not finite.
 std::vector<double> checkedSize(ShapeType type, std::vector<double> size, std::string* warning);
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline geometry_internal

@@ -7,7 +7,7 @@
 
 #include "kinegraph/geometry/shapes/convex_hull.h"
 
-namespace kinegraph {
+namespace kinegraph::inline geometry_internal {
 
 namespace {
 
@@ -114,4 +114,4 @@ std::vector<Vector3d> boxCorners(const Vector3d& h) {
   return points;
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline geometry_internal

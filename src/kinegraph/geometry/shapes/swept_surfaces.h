@@ -4,7 +4,7 @@
 
 #include "kinegraph/geometry/shapes/geometry.h"
 
-namespace kinegraph {
+namespace kinegraph::inline geometry_internal {
 
 /// A box with half sides `half` swept by a ball of radius r. Closed and outward, as all meshes here.
 Mesh roundedBox(const Vector3d& half, double r);
@@ -17,4 +17,4 @@ Mesh sweptHull(const std::vector<Vector3d>& core, const std::function<Vector3d(c
 
 std::vector<Vector3d> boxCorners(const Vector3d& half);
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline geometry_internal

@@ -2,11 +2,11 @@
 
 #include "kinegraph/geometry/shapes/shape_kinds.h"
 
-namespace kinegraph {
+namespace kinegraph::inline geometry_internal {
 
 Mesh tessellate(const Geometry& geometry) {
   const ShapeKind& kind = shapeKind(geometry.type);
   return kind.surface ? kind.surface(geometry) : Mesh{};
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline geometry_internal

@@ -7,7 +7,7 @@
 #include "kinegraph/geometry/shapes/shape_kinds.h"
 #include "kinegraph/geometry/shapes/tessellation.h"
 
-namespace kinegraph {
+namespace kinegraph::inline geometry_internal {
 
 namespace {
 
@@ -98,4 +98,4 @@ std::shared_ptr<const Geometry> withTexcoords(const Geometry& geometry, const st
   return covered;
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline geometry_internal

@@ -2,7 +2,7 @@
 
 #include "kinegraph/geometry/shapes/geometry.h"
 
-namespace kinegraph {
+namespace kinegraph::inline geometry_internal {
 
 /// The surface of a shape covered by a picture, repeated `repeat` times to the right and up. Meshes with texture
 /// coordinates use them. Otherwise the picture covers each side of a box, seen from outside with z up (y on top and
@@ -14,4 +14,4 @@ Mesh texturedSurface(const Geometry& geometry, std::shared_ptr<const Image> imag
 /// The geometry with these texture coordinates: two numbers per vertex of its mesh.
 std::shared_ptr<const Geometry> withTexcoords(const Geometry& geometry, const std::vector<double>& numbers);
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline geometry_internal

@@ -8,7 +8,7 @@
 
 #include "kinegraph/komo/collision/rrt_path.h"
 
-namespace kinegraph {
+namespace kinegraph::inline komo_internal {
 
 namespace {
 
@@ -236,4 +236,4 @@ std::optional<VectorXd> alternativePath(Path& path, double apart, MotionProbe& p
   return found;
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline komo_internal

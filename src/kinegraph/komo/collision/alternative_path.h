@@ -4,7 +4,7 @@
 
 #include "kinegraph/komo/path/path_motion.h"
 
-namespace kinegraph {
+namespace kinegraph::inline komo_internal {
 
 /// Computes an initial guess in another homotopy class: the variables of a path with the same ends and a different
 /// route between them. Equal numbers give equal paths. Returns nothing if no joint can be varied. Restores the given
@@ -21,4 +21,4 @@ namespace kinegraph {
 /// still collide.
 std::optional<VectorXd> alternativePath(Path& path, double apart, MotionProbe& probe, int number);
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline komo_internal

@@ -1,6 +1,6 @@
 #pragma once
 
-namespace kinegraph {
+namespace kinegraph::inline komo_internal {
 
 /// A time of a motion between slices at which the distance of a pair is constrained; or an empty placeholder.
 struct CollisionSample {
@@ -10,4 +10,4 @@ struct CollisionSample {
   bool isEmpty() const { return a < 0; }
 };
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline komo_internal

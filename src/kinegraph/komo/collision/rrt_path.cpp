@@ -6,7 +6,7 @@
 #include "kinegraph/rrt/rrt_connect.h"
 #include "kinegraph/rrt/shortcutter.h"
 
-namespace kinegraph {
+namespace kinegraph::inline komo_internal {
 
 namespace {
 
@@ -92,4 +92,4 @@ std::vector<VectorXd> rrtPath(EdgeChecker& checker, const SampleBounds& bounds, 
   return Shortcutter(space, std::move(path), {.cuts = 0, .corners = false}).run();
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline komo_internal

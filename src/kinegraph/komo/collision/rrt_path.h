@@ -5,7 +5,7 @@
 #include "kinegraph/collision/edge_check.h"
 #include "kinegraph/common/random.h"
 
-namespace kinegraph {
+namespace kinegraph::inline komo_internal {
 
 /// The dofs in which a path may leave the straight edge, and their bounds.
 struct SampleBounds {
@@ -19,4 +19,4 @@ struct SampleBounds {
 std::vector<VectorXd> rrtPath(EdgeChecker& checker, const SampleBounds& bounds, const VectorXd& from,
                               const VectorXd& to, Rng& rng, int max_samples);
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline komo_internal

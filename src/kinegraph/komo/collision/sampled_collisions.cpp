@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace kinegraph {
+namespace kinegraph::inline komo_internal {
 
 SampledCollisions::SampledCollisions(Form form, double max_distance, std::vector<CollisionSample> samples,
                                      std::vector<int> same_dofs, const State& begin)
@@ -49,4 +49,4 @@ void SampledCollisions::eval(std::span<const State* const> states, double, Eigen
   pairs_->visit(states[0]->sharedParameters(), J != nullptr, place_at, report);
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline komo_internal

@@ -6,7 +6,7 @@
 #include "kinegraph/features/feature.h"
 #include "kinegraph/komo/collision/sampled_pairs.h"
 
-namespace kinegraph {
+namespace kinegraph::inline komo_internal {
 
 /// Distances of pairs of shapes at fractions s of the motion from one configuration to the next one,
 ///
@@ -39,4 +39,4 @@ class SampledCollisions final : public Feature {
   std::unique_ptr<SampledPairs> pairs_;  ///< null if all samples are empty
 };
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline komo_internal

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace kinegraph {
+namespace kinegraph::inline komo_internal {
 
 namespace {
 
@@ -41,4 +41,4 @@ bool SampledPairs::isNear(const CollisionSample& sample, bool with_gradient, dou
   return true;
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline komo_internal

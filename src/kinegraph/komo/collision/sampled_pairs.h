@@ -6,7 +6,7 @@
 #include "kinegraph/features/distance.h"
 #include "kinegraph/komo/collision/collision_sample.h"
 
-namespace kinegraph {
+namespace kinegraph::inline komo_internal {
 
 /// Distances of pairs of shapes at times of a motion of any form.
 class SampledPairs {
@@ -51,4 +51,4 @@ class SampledPairs {
   Gradient gradient_;
 };
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline komo_internal

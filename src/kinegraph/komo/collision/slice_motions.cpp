@@ -1,6 +1,6 @@
 #include "kinegraph/komo/collision/slice_motions.h"
 
-namespace kinegraph {
+namespace kinegraph::inline komo_internal {
 
 namespace {
 
@@ -20,4 +20,4 @@ GuessKind guessKindOf(SliceMotions& motions, int from, int to) {
   return moves ? GuessKind::valid : GuessKind::stationary;
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline komo_internal

@@ -6,7 +6,7 @@
 #include "kinegraph/komo/path/path_motion.h"
 #include "kinegraph/nlp/initial_guesses.h"
 
-namespace kinegraph {
+namespace kinegraph::inline komo_internal {
 
 /// Distances of pairs of shapes along the motions between slices, for any interpolation of q. Times are fractions of
 /// the motion to a slice, in [0, 1].
@@ -53,4 +53,4 @@ class LinearSliceMotions final : public SliceMotions {
   MotionProbe& probe_;
 };
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline komo_internal

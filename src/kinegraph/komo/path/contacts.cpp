@@ -2,7 +2,7 @@
 
 #include "kinegraph/komo/path/path.h"
 
-namespace kinegraph {
+namespace kinegraph::inline komo_internal {
 
 std::vector<Interaction> Contacts::interactions(const Path& path) const {
   std::vector<Interaction> list;
@@ -18,4 +18,4 @@ std::vector<Interaction> Contacts::interactions(const Path& path) const {
   return list;
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline komo_internal

@@ -7,7 +7,7 @@
 #include "kinegraph/features/forces.h"
 #include "kinegraph/komo/path/path_records.h"
 
-namespace kinegraph {
+namespace kinegraph::inline komo_internal {
 
 class Path;
 
@@ -28,4 +28,4 @@ class Contacts {
   std::vector<ContactForce> forces_;
 };
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline komo_internal

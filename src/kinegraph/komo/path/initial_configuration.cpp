@@ -2,7 +2,7 @@
 
 #include "kinegraph/scene/tree/scene_tree.h"
 
-namespace kinegraph {
+namespace kinegraph::inline komo_internal {
 
 InitialConfiguration::InitialConfiguration(const Config& config)
     : tree(config.scene()->snapshot()),
@@ -49,4 +49,4 @@ void transferPoses(SceneTree& target, const Config& config) {
   target.posesChanged();
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline komo_internal

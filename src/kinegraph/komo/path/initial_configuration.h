@@ -8,7 +8,7 @@
 #include "kinegraph/scene/config.h"
 #include "kinegraph/scene/tree/scene_tree.h"
 
-namespace kinegraph {
+namespace kinegraph::inline komo_internal {
 
 /// Snapshot of the configuration from which a problem is made. Later edits of the Config have no effect on it.
 struct InitialConfiguration {
@@ -43,4 +43,4 @@ struct InitialConfiguration {
 /// frames with the same parent in both are changed.
 void transferPoses(SceneTree& target, const Config& config);
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline komo_internal

@@ -87,7 +87,7 @@ double reach(const Frame& frame) {
 
 }  // namespace
 
-double height(const Frame& frame) { return shapeHeight(frame.getShapeType(), frame.getSize()); }
+double komo_internal::height(const Frame& frame) { return shapeHeight(frame.getShapeType(), frame.getSize()); }
 
 namespace {
 
@@ -104,19 +104,19 @@ Pose faceBase(const std::vector<double>& box, int axis, double object_height) {
 
 }  // namespace
 
-void limitFreeJoint(Attachment& attachment, const Frame& parent, const Frame* object) {
+void komo_internal::limitFreeJoint(Attachment& attachment, const Frame& parent, const Frame* object) {
   const double range = .9 * (reach(parent) + (object ? reach(*object) : 0.));
   if (range <= 0.) return;
   attachment.upper = (Eigen::Matrix<double, 7, 1>() << range, range, range, 1.1, 1.1, 1.1, 1.1).finished();
   attachment.lower = -attachment.upper;
 }
 
-void limitSliding(Attachment& attachment, double half_x, double half_y) {
+void komo_internal::limitSliding(Attachment& attachment, double half_x, double half_y) {
   attachment.upper = Vector3d(half_x, half_y, 2. * std::numbers::pi);
   attachment.lower = -attachment.upper;
 }
 
-void limitByType(Attachment& attachment, const Frame& parent) {
+void komo_internal::limitByType(Attachment& attachment, const Frame& parent) {
   const std::vector<double> size = parent.getSize();
   const auto symmetric = [&](const VectorXd& upper) {
     attachment.upper = upper;
@@ -221,7 +221,7 @@ Attachment inPlane(const Frame& parent, const Frame& object) {
 
 }  // namespace
 
-Attachment attachmentOf(SwitchMode mode, const Frame& parent, const Frame& object) {
+Attachment komo_internal::attachmentOf(SwitchMode mode, const Frame& parent, const Frame& object) {
   using M = SwitchMode;
   switch (mode) {
     case M::stable: {
@@ -264,7 +264,7 @@ Attachment attachmentOf(SwitchMode mode, const Frame& parent, const Frame& objec
   }
 }
 
-void addJoint(FrameData& frame, const Attachment& attachment, const Pose& relative) {
+void komo_internal::addJoint(FrameData& frame, const Attachment& attachment, const Pose& relative) {
   Joint joint(attachment.type);
   frame.pose = Pose();
   if (joint.dofs() > 0) {

@@ -8,7 +8,7 @@
 #include "kinegraph/komo/path/path_records.h"
 #include "kinegraph/scene/config.h"
 
-namespace kinegraph {
+namespace kinegraph::inline komo_internal {
 
 /// A joint that a trajectory optimization problem adds to the scene.
 struct Attachment {
@@ -63,4 +63,4 @@ struct Mode {
 /// Gives `frame`, which has a parent, the joint of an attachment.
 void addJoint(FrameData& frame, const Attachment& attachment, const Pose& relative);
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline komo_internal

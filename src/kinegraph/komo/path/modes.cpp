@@ -4,7 +4,7 @@
 #include "kinegraph/common/text.h"
 #include "kinegraph/scene/tree/scene_tree.h"
 
-namespace kinegraph {
+namespace kinegraph::inline komo_internal {
 
 Modes::Modes(std::vector<Mode> modes, std::vector<int> of_slice, int next_joint)
     : of_slice_(std::move(of_slice)), next_joint_(next_joint) {
@@ -46,4 +46,4 @@ void Modes::replace(std::size_t first, std::size_t last, const std::function<voi
   }
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline komo_internal

@@ -7,7 +7,7 @@
 #include "kinegraph/komo/path/mode.h"
 #include "kinegraph/scene/tree/scene_tree.h"
 
-namespace kinegraph {
+namespace kinegraph::inline komo_internal {
 
 /// The kinematic structure of the scene in each slice. Slices count from 0, the first one before the start.
 ///
@@ -49,4 +49,4 @@ class Modes {
   int next_joint_ = 1;
 };
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline komo_internal

@@ -7,7 +7,7 @@
 #include "kinegraph/kinematics/unit_norms.h"
 #include "kinegraph/scene/tree/scene_tree.h"
 
-namespace kinegraph {
+namespace kinegraph::inline komo_internal {
 
 namespace {
 
@@ -302,4 +302,4 @@ void Path::setContent(Content content) {
   layOut();
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline komo_internal

@@ -10,7 +10,7 @@
 #include "kinegraph/komo/path/path_layout.h"
 #include "kinegraph/komo/path/time_grid.h"
 
-namespace kinegraph {
+namespace kinegraph::inline komo_internal {
 
 /// Configurations of a scene, one per slice of a time grid, preceded by `order` more. The kinematic structure may
 /// change along the path: slices share the model of their mode. Empty until it has both a scene and a grid.
@@ -118,4 +118,4 @@ class Path {
   int revision_ = 0;
 };
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline komo_internal

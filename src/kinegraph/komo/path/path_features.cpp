@@ -1,6 +1,6 @@
 #include "kinegraph/komo/path/path_features.h"
 
-namespace kinegraph {
+namespace kinegraph::inline komo_internal {
 
 JointsOfFrames::JointsOfFrames(std::vector<Part> parts) : parts_(std::move(parts)) {
   for (const Part& part : parts_) rows_ += part.count;
@@ -18,4 +18,4 @@ void JointsOfFrames::eval(std::span<const State* const> states, double, Eigen::R
   }
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline komo_internal

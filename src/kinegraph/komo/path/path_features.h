@@ -5,7 +5,7 @@
 
 #include "kinegraph/features/feature.h"
 
-namespace kinegraph {
+namespace kinegraph::inline komo_internal {
 
 /// Dofs of the joints of certain frames: y = q_i (rad, m). Unlike JointState it finds them by frame in each
 /// configuration, because the index of a joint in q may differ between modes.
@@ -27,4 +27,4 @@ class JointsOfFrames final : public Feature {
   int rows_ = 0;
 };
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline komo_internal

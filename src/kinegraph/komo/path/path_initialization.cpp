@@ -10,7 +10,7 @@
 #include "kinegraph/komo/path/path.h"
 #include "kinegraph/scene/tree/scene_tree.h"
 
-namespace kinegraph {
+namespace kinegraph::inline komo_internal {
 
 namespace {
 
@@ -209,4 +209,4 @@ void initializePhase(Path& path, int phase, const std::vector<int>& frames, cons
   copySharedDofs(path);
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline komo_internal

@@ -6,7 +6,7 @@
 #include "kinegraph/komo/path/path_records.h"
 #include "kinegraph/math/pose.h"
 
-namespace kinegraph {
+namespace kinegraph::inline komo_internal {
 
 class Path;
 
@@ -27,4 +27,4 @@ std::vector<int> initializeWaypoints(Path& path, const std::vector<VectorXd>& wa
 void initializePhase(Path& path, int phase, const std::vector<int>& frames, const MatrixXd& configurations,
                      bool resample);
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline komo_internal

@@ -2,7 +2,7 @@
 
 #include <map>
 
-namespace kinegraph {
+namespace kinegraph::inline komo_internal {
 
 namespace {
 
@@ -80,4 +80,4 @@ PathLayout makeLayout(const std::vector<State>& states, int prefix, const std::s
   return layout;
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline komo_internal

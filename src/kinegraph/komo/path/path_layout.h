@@ -6,7 +6,7 @@
 #include "kinegraph/kinematics/state.h"
 #include "kinegraph/komo/path/modes.h"
 
-namespace kinegraph {
+namespace kinegraph::inline komo_internal {
 
 /// Positions of the dofs of the slices in x. Slices follow one another, and dofs of a slice are in the order of its q.
 /// Shared dofs occur once, at the first slice that has them. Index 0 is the first slice before the start.
@@ -23,4 +23,4 @@ struct PathLayout {
 /// joints are shared by all slices.
 PathLayout makeLayout(const std::vector<State>& states, int prefix, const std::set<int>& stable, const Modes& modes);
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline komo_internal

@@ -109,7 +109,7 @@ PathContact describe(const SliceMotion& motion, const MotionContact& contact) {
 
 }  // namespace
 
-std::vector<int> sameDofs(const Path& path, int slice) {
+std::vector<int> komo_internal::sameDofs(const Path& path, int slice) {
   const KinematicModel &before = path.state(slice - 1).model(), &now = path.state(slice).model();
   std::vector<int> same(std::size_t(before.dofs), -1);
   const bool one_mode = &before == &now;
@@ -129,9 +129,9 @@ std::vector<int> sameDofs(const Path& path, int slice) {
   return same;
 }
 
-int firstMotion(const Path& path) { return path.grid().order() > 0 ? 0 : 1; }
+int komo_internal::firstMotion(const Path& path) { return path.grid().order() > 0 ? 0 : 1; }
 
-SliceMotion motionInto(const Path& path, int slice) {
+SliceMotion komo_internal::motionInto(const Path& path, int slice) {
   const State &before = path.state(slice - 1), &now = path.state(slice);
   SliceMotion motion{slice,
                      path.grid().timeOf(slice - 1),
@@ -151,7 +151,7 @@ SliceMotion motionInto(const Path& path, int slice) {
   return motion;
 }
 
-std::vector<SliceMotion> motionsOf(const Path& path) {
+std::vector<SliceMotion> komo_internal::motionsOf(const Path& path) {
   std::vector<SliceMotion> motions;
   for (int slice = firstMotion(path); slice < path.grid().slices(); ++slice) motions.push_back(motionInto(path, slice));
   return motions;
@@ -211,8 +211,8 @@ std::string PathContact::str() const {
              slice);
 }
 
-std::vector<PathContact> contactsOf(const std::vector<SliceMotion>& motions, double margin, double tolerance,
-                                    const CancellationToken& cancellation) {
+std::vector<PathContact> komo_internal::contactsOf(const std::vector<SliceMotion>& motions, double margin,
+                                                   double tolerance, const CancellationToken& cancellation) {
   std::vector<PathContact> contacts;
   MotionProbe probe(tolerance);
   for (const SliceMotion& motion : motions) {

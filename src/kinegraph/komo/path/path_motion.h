@@ -12,7 +12,7 @@
 #include "kinegraph/komo/path/path_records.h"
 #include "kinegraph/scene/tree/scene_tree.h"
 
-namespace kinegraph {
+namespace kinegraph::inline komo_internal {
 
 /// The motion from one slice of a path to the next: q moves linearly. The kinematic structure is that of the first
 /// slice, since a mode switch happens when its slice is reached; joints that end with it keep their values. The motion
@@ -79,4 +79,4 @@ class MotionProbe {
 std::vector<PathContact> contactsOf(const std::vector<SliceMotion>& motions, double margin, double tolerance,
                                     const CancellationToken& cancellation = {});
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline komo_internal

@@ -4,7 +4,7 @@
 #include "kinegraph/common/text.h"
 #include "kinegraph/scene/tree/scene_tree.h"
 
-namespace kinegraph {
+namespace kinegraph::inline komo_internal {
 
 SubProblem subProblem(const Path& path, int phase) {
   const TimeGrid& grid = path.grid();
@@ -37,4 +37,4 @@ SubProblem subProblem(const Path& path, int phase) {
   return out;
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline komo_internal

@@ -2,7 +2,7 @@
 
 #include "kinegraph/komo/path/path.h"
 
-namespace kinegraph {
+namespace kinegraph::inline komo_internal {
 
 /// One phase of a path with one slice per phase, as input for a motion planner.
 struct SubProblem {
@@ -13,4 +13,4 @@ struct SubProblem {
 /// Throws ValueError for paths with more slices per phase, and for phases that do not exist.
 SubProblem subProblem(const Path& path, int phase);
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline komo_internal

@@ -6,7 +6,7 @@
 #include "kinegraph/common/errors.h"
 #include "kinegraph/common/text.h"
 
-namespace kinegraph {
+namespace kinegraph::inline komo_internal {
 
 namespace {
 
@@ -48,4 +48,4 @@ std::pair<int, int> TimeGrid::select(const std::vector<double>& times) const {
   return {std::max(from, 0), std::min(to, slices_ - 1)};
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline komo_internal

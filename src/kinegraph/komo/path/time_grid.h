@@ -3,7 +3,7 @@
 #include <utility>
 #include <vector>
 
-namespace kinegraph {
+namespace kinegraph::inline komo_internal {
 
 /// The slices of a path in time. There are T = ceil(phases * slices_per_phase) slices. Slice t is at phase time (t+1) /
 /// slices_per_phase, so the last one of a phase is at its end. `order` more slices precede slice 0.
@@ -35,4 +35,4 @@ class TimeGrid {
   int slices_ = 0, slices_per_phase_ = 0, order_ = 0;
 };
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline komo_internal

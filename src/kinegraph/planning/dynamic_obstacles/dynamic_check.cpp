@@ -6,7 +6,7 @@
 #include "kinegraph/collision/displacement_bound.h"
 #include "kinegraph/scene/tree/scene_tree.h"
 
-namespace kinegraph {
+namespace kinegraph::inline planning_internal {
 
 namespace {
 
@@ -115,4 +115,4 @@ std::optional<DynamicContact> DynamicCheck::contact(const PathCurve& curve, cons
   return std::nullopt;
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline planning_internal

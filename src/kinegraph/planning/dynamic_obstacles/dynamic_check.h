@@ -9,7 +9,7 @@
 #include "kinegraph/trajectories/scaling_grid.h"
 #include "kinegraph/trajectories/time_scaling.h"
 
-namespace kinegraph {
+namespace kinegraph::inline planning_internal {
 
 /// The first contact of a motion with a dynamic obstacle.
 struct DynamicContact {
@@ -78,4 +78,4 @@ class DynamicCheck {
   EdgeChecker edges_;
 };
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline planning_internal

@@ -9,7 +9,7 @@
 #include "kinegraph/kinematics/state.h"
 #include "kinegraph/scene/tree/scene_tree.h"
 
-namespace kinegraph {
+namespace kinegraph::inline planning_internal {
 
 namespace {
 
@@ -190,4 +190,4 @@ Config DynamicScene::staticScene(const std::vector<double>& times) const {
   return scene;
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline planning_internal

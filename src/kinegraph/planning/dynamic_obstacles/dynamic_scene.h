@@ -7,7 +7,7 @@
 #include "kinegraph/planning/dynamic_obstacles/obstacle_trajectory.h"
 #include "kinegraph/scene/config.h"
 
-namespace kinegraph {
+namespace kinegraph::inline planning_internal {
 
 /// A scene with dynamic obstacles.
 ///
@@ -61,4 +61,4 @@ class DynamicScene {
   std::vector<double> breaks_ = {0.};
 };
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline planning_internal

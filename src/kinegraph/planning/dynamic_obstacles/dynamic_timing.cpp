@@ -7,7 +7,7 @@
 #include "kinegraph/common/text.h"
 #include "kinegraph/trajectories/curve_part.h"
 
-namespace kinegraph {
+namespace kinegraph::inline planning_internal {
 
 namespace {
 
@@ -348,4 +348,4 @@ DynamicTiming timeAmongObstacles(const TimedPath& fastest, const MotionLimits& l
   return TimeSearch(fastest, limits, check, cancellation).run();
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline planning_internal

@@ -5,7 +5,7 @@
 #include "kinegraph/planning/search/path_search.h"
 #include "kinegraph/trajectories/retime.h"
 
-namespace kinegraph {
+namespace kinegraph::inline planning_internal {
 
 /// A time scaling along a curve that avoids dynamic obstacles.
 struct DynamicTiming {
@@ -35,4 +35,4 @@ struct DynamicTiming {
 DynamicTiming timeAmongObstacles(const TimedPath& fastest, const MotionLimits& limits, DynamicCheck& check,
                                  const CancellationToken& cancellation = {});
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline planning_internal

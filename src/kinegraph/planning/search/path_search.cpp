@@ -9,7 +9,7 @@
 #include "kinegraph/common/parallel.h"
 #include "kinegraph/rrt/rrt_connect.h"
 
-namespace kinegraph {
+namespace kinegraph::inline planning_internal {
 
 namespace {
 
@@ -160,4 +160,4 @@ PathSearchResult searchPath(const PathQuery& query) {
   return result;
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline planning_internal

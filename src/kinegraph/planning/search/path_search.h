@@ -6,7 +6,7 @@
 #include "kinegraph/planning/steering/steering.h"
 #include "kinegraph/rrt/search_tree.h"
 
-namespace kinegraph {
+namespace kinegraph::inline planning_internal {
 
 /// A query of searchPath.
 struct PathQuery {
@@ -40,4 +40,4 @@ struct PathSearchResult {
 /// searches at once.
 PathSearchResult searchPath(const PathQuery& query);
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline planning_internal

@@ -6,7 +6,7 @@
 #include "kinegraph/planning/smoothing/rope_shortcut.h"
 #include "kinegraph/planning/smoothing/shortcut.h"
 
-namespace kinegraph {
+namespace kinegraph::inline planning_internal {
 
 namespace {
 
@@ -91,4 +91,4 @@ void tighten(ShortcutResult& best, const PathQuery& query, const VectorXd& weigh
   best.cost = cost;
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline planning_internal

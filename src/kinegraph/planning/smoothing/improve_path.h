@@ -3,7 +3,7 @@
 #include "kinegraph/common/cancellation.h"
 #include "kinegraph/planning/search/path_search.h"
 
-namespace kinegraph {
+namespace kinegraph::inline planning_internal {
 
 /// A path that a search found, and its shortened version.
 struct ShortcutResult {
@@ -31,4 +31,4 @@ ShortcutResult improvePath(const PathSearchResult& first, const PathQuery& query
 void tighten(ShortcutResult& best, const PathQuery& query, const VectorXd& weight, int refinements,
              SteeringContexts& contexts);
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline planning_internal

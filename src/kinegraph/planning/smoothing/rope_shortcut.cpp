@@ -7,7 +7,7 @@
 
 #include "kinegraph/planning/steering/pair_gradient.h"
 
-namespace kinegraph {
+namespace kinegraph::inline planning_internal {
 
 namespace {
 
@@ -319,4 +319,4 @@ std::vector<VectorXd> tightenPath(Steering& steering, const std::vector<VectorXd
   return RopeShortcut(steering, path, options).run();
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline planning_internal

@@ -3,7 +3,7 @@
 #include "kinegraph/common/cancellation.h"
 #include "kinegraph/planning/search/path_search.h"
 
-namespace kinegraph {
+namespace kinegraph::inline planning_internal {
 
 struct RopeShortcutOptions {
   VectorXd weight = {};  ///< per dof, of the weighted length; empty: ones
@@ -24,4 +24,4 @@ struct RopeShortcutOptions {
 std::vector<VectorXd> tightenPath(Steering& steering, const std::vector<VectorXd>& path,
                                   const RopeShortcutOptions& options = {});
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline planning_internal

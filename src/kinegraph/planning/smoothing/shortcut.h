@@ -3,9 +3,9 @@
 #include "kinegraph/planning/steering/steering.h"
 #include "kinegraph/rrt/shortcutter.h"
 
-namespace kinegraph {
+namespace kinegraph::inline planning_internal {
 
 /// Shortens a path whose edges are continuously collision-free; so are those of the path that it returns (Shortcutter).
 std::vector<VectorXd> shortcutPath(Steering& steering, std::vector<VectorXd> path, const ShortcutOptions& options = {});
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline planning_internal

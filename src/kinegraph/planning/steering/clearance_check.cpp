@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace kinegraph {
+namespace kinegraph::inline planning_internal {
 
 ClearanceCheck::ClearanceCheck(const State& scene, const JointSpace& space, Clearance clearance)
     : space_(&space),
@@ -132,4 +132,4 @@ std::optional<ClearanceCheck::Nearest> ClearanceCheck::nearest(const VectorXd& q
   return near.empty() ? std::nullopt : std::optional(near.front());
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline planning_internal

@@ -9,7 +9,7 @@
 #include "kinegraph/collision/near_pairs.h"
 #include "kinegraph/planning/steering/joint_space.h"
 
-namespace kinegraph {
+namespace kinegraph::inline planning_internal {
 
 /// The distance that all collidable pairs have to keep: a margin, and a smaller one around configurations that do not
 /// keep it.
@@ -95,4 +95,4 @@ class ClearanceCheck {
   VectorXd samples_[EdgeChecker::kLanes];
 };
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline planning_internal

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-namespace kinegraph {
+namespace kinegraph::inline planning_internal {
 
 namespace {
 
@@ -102,4 +102,4 @@ void ConstraintBounds::eval(const DisplacementBound& bounds, const VectorXd& cha
   }
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline planning_internal

@@ -3,7 +3,7 @@
 #include "kinegraph/collision/displacement_bound.h"
 #include "kinegraph/features/residual.h"
 
-namespace kinegraph {
+namespace kinegraph::inline planning_internal {
 
 /// Bounds of the derivatives of the rows y of a residual along an edge q(s):
 ///
@@ -35,4 +35,4 @@ class ConstraintBounds {
   bool known_;
 };
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline planning_internal

@@ -6,7 +6,7 @@
 #include "kinegraph/common/errors.h"
 #include "kinegraph/common/text.h"
 
-namespace kinegraph {
+namespace kinegraph::inline planning_internal {
 
 namespace {
 
@@ -206,4 +206,4 @@ double pathLength(const JointSpace& space, const MatrixXd& path) {
   return length;
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline planning_internal

@@ -6,7 +6,7 @@
 #include "kinegraph/common/random.h"
 #include "kinegraph/kinematics/kinematic_model.h"
 
-namespace kinegraph {
+namespace kinegraph::inline planning_internal {
 
 /// The joint vectors of a scene as a metric space with samples and straight edges.
 ///
@@ -88,4 +88,4 @@ double pathLength(const JointSpace& space, const MatrixXd& path);
 /// "joint" or "joint:i" per dof.
 std::vector<std::string> dofNames(const KinematicModel& model);
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline planning_internal

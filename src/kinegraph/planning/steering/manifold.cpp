@@ -9,7 +9,7 @@
 #include "kinegraph/common/text.h"
 #include "kinegraph/features/make_residual.h"
 
-namespace kinegraph {
+namespace kinegraph::inline planning_internal {
 
 namespace {
 
@@ -180,4 +180,4 @@ bool Manifold::holdsAlong(const VectorXd& from, const VectorXd& to, double spaci
   return true;
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline planning_internal

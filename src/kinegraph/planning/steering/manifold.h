@@ -8,7 +8,7 @@
 #include "kinegraph/planning/steering/joint_space.h"
 #include "kinegraph/planning/steering/motion_constraint.h"
 
-namespace kinegraph {
+namespace kinegraph::inline planning_internal {
 
 /// The configurations at which constraints hold, every row to within a tolerance. Every thread has its own.
 class Manifold {
@@ -75,4 +75,4 @@ class Manifold {
   VectorXd curvature_, deviation_;  ///< per row, bounds on the present edge: second derivative; change by deviations
 };
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline planning_internal

@@ -2,7 +2,7 @@
 
 #include "kinegraph/geometry/distance/proximity.h"
 
-namespace kinegraph {
+namespace kinegraph::inline planning_internal {
 
 PairGradient pairGradient(const State& state, int a, int b) {
   const auto& bodies = state.model().body;
@@ -18,4 +18,4 @@ PairGradient pairGradient(const State& state, int a, int b) {
   return pair;
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline planning_internal

@@ -2,7 +2,7 @@
 
 #include "kinegraph/kinematics/state.h"
 
-namespace kinegraph {
+namespace kinegraph::inline planning_internal {
 
 /// The distance of two bodies and its gradient.
 struct PairGradient {
@@ -13,4 +13,4 @@ struct PairGradient {
 /// Computes the distance of two frames (ids) with bodies, at the q of a State.
 PairGradient pairGradient(const State& state, int a, int b);
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline planning_internal

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace kinegraph {
+namespace kinegraph::inline planning_internal {
 
 static_assert(SearchSpace<Steering>);
 
@@ -95,4 +95,4 @@ std::optional<std::vector<VectorXd>> Steering::connect(const VectorXd& from, con
   return std::move(extension.points);
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline planning_internal

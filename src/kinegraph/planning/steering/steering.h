@@ -4,7 +4,7 @@
 #include "kinegraph/planning/steering/manifold.h"
 #include "kinegraph/rrt/search_space.h"
 
-namespace kinegraph {
+namespace kinegraph::inline planning_internal {
 
 /// The constraints that a motion has to satisfy: one value for all threads.
 struct PlanningConstraints {
@@ -84,4 +84,4 @@ class SteeringContexts {
   std::vector<std::unique_ptr<Steering>> of_;
 };
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline planning_internal

@@ -13,7 +13,7 @@
 #include "kinegraph/scene/loading/reader.h"
 #include "kinegraph/scene/tree/scene_tree.h"
 
-namespace kinegraph {
+namespace kinegraph::inline scene_internal {
 
 namespace {
 
@@ -267,4 +267,4 @@ void AttributeReader::checkSpelling() {
   }
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline scene_internal

@@ -9,7 +9,7 @@
 #include "kinegraph/scene/tree/diagnostics.h"
 #include "kinegraph/scene/tree/frame_data.h"
 
-namespace kinegraph {
+namespace kinegraph::inline scene_internal {
 
 /// Returns "unknown attribute 'mas'; did you mean 'mass'?" for a word that the library does not read and that is a near
 /// miss of one that it reads; otherwise "".
@@ -91,4 +91,4 @@ bool AttributeReader::guarded(const Node& node, Function function) {
   return false;
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline scene_internal

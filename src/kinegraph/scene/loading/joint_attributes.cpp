@@ -4,7 +4,7 @@
 #include "kinegraph/scene/loading/attributes.h"
 #include "kinegraph/scene/tree/joint_limits.h"
 
-namespace kinegraph {
+namespace kinegraph::inline scene_internal {
 
 std::optional<Pose> AttributeReader::readBehind() {
   const auto before = find({"BinvA"}) ? readBefore() : std::nullopt;
@@ -129,4 +129,4 @@ void AttributeReader::applyJoint(FrameData& frame) {
   applyPose(frame);
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline scene_internal

@@ -6,7 +6,7 @@
 #include "kinegraph/common/text.h"
 #include "kinegraph/scene/loading/reader.h"
 
-namespace kinegraph {
+namespace kinegraph::inline scene_internal {
 
 namespace {
 
@@ -117,4 +117,4 @@ Pose parsePose(std::string_view text, const SourcePosition& where) {
   }
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline scene_internal

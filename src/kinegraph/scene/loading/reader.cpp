@@ -6,7 +6,7 @@
 #include "kinegraph/scene/loading/scene_builder.h"
 #include "kinegraph/scene/loading/scene_source.h"
 
-namespace kinegraph {
+namespace kinegraph::inline scene_internal {
 
 namespace {
 
@@ -88,4 +88,4 @@ void readAttributes(std::string_view text, const std::string& folder, FrameData&
   for (std::string& warning : diagnostics.warnings()) warnings.push_back(std::move(warning));
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline scene_internal

@@ -8,7 +8,7 @@
 #include "kinegraph/scene/loading/file_options.h"
 #include "kinegraph/scene/tree/scene_tree.h"
 
-namespace kinegraph {
+namespace kinegraph::inline scene_internal {
 
 /// Reads a scene file into `scene`, which must be empty. Included files are relative to the including file; $NAME is
 /// expanded from the environment. Throws FileError or ParseError (with file:line:column, the source line and a
@@ -43,4 +43,4 @@ void readAttributes(std::string_view text, const std::string& folder, FrameData&
 /// Parses a pose in the turtle language: "t(1 0 0) d(90 0 0 1) ...", or 3, 4 or 7 bare numbers.
 Pose parsePose(std::string_view text, const SourcePosition& where = {});
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline scene_internal

@@ -6,7 +6,7 @@
 
 #include "kinegraph/common/text.h"
 
-namespace kinegraph {
+namespace kinegraph::inline scene_internal {
 
 namespace {
 
@@ -289,4 +289,4 @@ void applySemantics(const RobotSemantics& semantics, SceneTree& scene, SceneDiag
   Applier(semantics, scene, diagnostics).apply();
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline scene_internal

@@ -1,10 +1,10 @@
 #pragma once
 
-#include "kinegraph/parsers/srdf_reader.h"
+#include "kinegraph/parsers/urdf/srdf_reader.h"
 #include "kinegraph/scene/tree/diagnostics.h"
 #include "kinegraph/scene/tree/scene_tree.h"
 
-namespace kinegraph {
+namespace kinegraph::inline scene_internal {
 
 /// Applies an SRDF file to the frames: `contact_exclude`, and the attributes `joint_groups` and `joint_states` of
 /// joints.
@@ -12,4 +12,4 @@ namespace kinegraph {
 /// excluded. Unknown names cause warnings, and an error if no name is known.
 void applySemantics(const RobotSemantics& semantics, SceneTree& scene, SceneDiagnostics& diagnostics);
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline scene_internal

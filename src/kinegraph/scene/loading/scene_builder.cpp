@@ -9,7 +9,7 @@
 #include "kinegraph/scene/loading/robot_semantics.h"
 #include "kinegraph/scene/loading/unit_questions.h"
 
-namespace kinegraph {
+namespace kinegraph::inline scene_internal {
 
 namespace {
 
@@ -296,4 +296,4 @@ void SceneBuilder::setJointState(const Node& node) {
   }
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline scene_internal

@@ -7,7 +7,7 @@
 #include "kinegraph/scene/loading/scene_source.h"
 #include "kinegraph/scene/tree/scene_tree.h"
 
-namespace kinegraph {
+namespace kinegraph::inline scene_internal {
 
 /// Creates the frames of a SceneSource in five passes: frames, parents, attributes, joints between two frames, and
 /// references to other frames by name.
@@ -52,4 +52,4 @@ class SceneBuilder {
   std::vector<FrameData*> frames_;  ///< one per source frame
 };
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline scene_internal

@@ -13,7 +13,7 @@
 #include "kinegraph/common/utf8.h"
 #include "kinegraph/parsers/scene_formats.h"
 
-namespace kinegraph {
+namespace kinegraph::inline scene_internal {
 
 namespace fs = std::filesystem;
 
@@ -392,4 +392,4 @@ std::vector<std::string> sourceFiles(const std::string& path) {
   return std::move(reader.files);
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline scene_internal

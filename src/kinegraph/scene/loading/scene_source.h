@@ -4,11 +4,11 @@
 #include <vector>
 
 #include "kinegraph/gfile/value.h"
-#include "kinegraph/parsers/srdf_reader.h"
+#include "kinegraph/parsers/urdf/srdf_reader.h"
 #include "kinegraph/scene/loading/xacro.h"
 #include "kinegraph/scene/tree/diagnostics.h"
 
-namespace kinegraph {
+namespace kinegraph::inline scene_internal {
 
 /// One frame entry of a scene file.
 struct SourceFrame {
@@ -34,4 +34,4 @@ SceneSource readSource(std::string_view text, const std::string& name, const std
 /// Paths of the scene file and of all files it includes, with or without errors, existing or not.
 std::vector<std::string> sourceFiles(const std::string& path);
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline scene_internal

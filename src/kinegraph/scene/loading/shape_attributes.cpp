@@ -16,7 +16,7 @@
 #include "kinegraph/scene/loading/attributes.h"
 #include "kinegraph/scene/tree/scene_tree.h"
 
-namespace kinegraph {
+namespace kinegraph::inline scene_internal {
 
 namespace {
 
@@ -303,4 +303,4 @@ void AttributeReader::applyTexture(Shape& shape) {
   }
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline scene_internal

@@ -10,9 +10,9 @@
 #include "kinegraph/common/text.h"
 #include "kinegraph/geometry/shapes/shape_kinds.h"
 #include "kinegraph/geometry/shapes/shape_types.h"
-#include "kinegraph/parsers/xml.h"
+#include "kinegraph/parsers/xml/xml.h"
 
-namespace kinegraph {
+namespace kinegraph::inline scene_internal {
 
 namespace {
 
@@ -203,4 +203,4 @@ void askAboutUnits(const SceneSource& source, const std::vector<FrameData*>& fra
   questions.positions.ask(diagnostics, 2);  // a single one is a high tower's joint
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline scene_internal

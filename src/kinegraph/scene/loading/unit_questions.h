@@ -6,7 +6,7 @@
 #include "kinegraph/scene/loading/scene_source.h"
 #include "kinegraph/scene/tree/frame_data.h"
 
-namespace kinegraph {
+namespace kinegraph::inline scene_internal {
 
 /// Asks whether the shape of a frame is in mm; "" without a strong reason. Large shapes alone are none: floors, halls
 /// and terrains are large. Reasons: it is a link of an arm, but many times larger than the offsets between the joints;
@@ -17,4 +17,4 @@ std::string askAboutSize(const FrameData& frame);
 /// sizes, meshes and positions of links in millimeters. `frames` are those that the entries of `source` made.
 void askAboutUnits(const SceneSource& source, const std::vector<FrameData*>& frames, SceneDiagnostics& diagnostics);
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline scene_internal

@@ -19,7 +19,7 @@ void setXacroExpander(XacroExpander expander) {
   xacro_expander = std::move(expander);
 }
 
-std::string expandXacro(const std::string& path, const XacroArguments& arguments) {
+std::string scene_internal::expandXacro(const std::string& path, const XacroArguments& arguments) {
   XacroExpander expand;
   {
     const std::lock_guard lock(expander_mutex);

@@ -7,7 +7,7 @@
 #include "kinegraph/geometry/shapes/shape_kinds.h"
 #include "kinegraph/scene/tree/scene_tree.h"
 
-namespace kinegraph {
+namespace kinegraph::inline scene_internal {
 
 namespace {
 
@@ -219,4 +219,4 @@ ContactRules contactRules(const SceneTree& scene) {
   return rules;
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline scene_internal

@@ -7,7 +7,7 @@
 #include "kinegraph/common/text.h"
 #include "kinegraph/geometry/shapes/shape_kinds.h"
 
-namespace kinegraph {
+namespace kinegraph::inline scene_internal {
 
 namespace {
 
@@ -147,4 +147,4 @@ std::vector<std::string> describe(const ContactWarnings& warnings, const SceneTr
   return sentences;
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline scene_internal

@@ -6,7 +6,7 @@
 
 #include "kinegraph/scene/tree/scene_tree.h"
 
-namespace kinegraph {
+namespace kinegraph::inline scene_internal {
 
 /// Unexpected collision settings of a scene at its current q.
 struct ContactWarnings {
@@ -29,4 +29,4 @@ ContactWarnings contactWarnings(SceneTree& scene);
 /// Describes the warnings: one sentence per nonempty list.
 std::vector<std::string> describe(const ContactWarnings& warnings, const SceneTree& scene);
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline scene_internal

@@ -4,7 +4,7 @@
 
 #include "kinegraph/common/text.h"
 
-namespace kinegraph {
+namespace kinegraph::inline scene_internal {
 
 void SceneDiagnostics::add(Diagnostic diagnostic) {
   if (diagnostic.severity == Diagnostic::Severity::error && ++errors_ > kMaxErrors) return;
@@ -65,4 +65,4 @@ std::string SceneDiagnostics::withExcerpt(const Diagnostic& diagnostic) const {
   return cat(diagnostic.message, "\n", excerpt(text->second, diagnostic.where));
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline scene_internal

@@ -6,7 +6,7 @@
 
 #include "kinegraph/gfile/parser.h"
 
-namespace kinegraph {
+namespace kinegraph::inline scene_internal {
 
 /// Errors and warnings found while reading a scene, with their positions and the source texts.
 class SceneDiagnostics {
@@ -43,4 +43,4 @@ class SceneDiagnostics {
   int errors_ = 0;
 };
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline scene_internal

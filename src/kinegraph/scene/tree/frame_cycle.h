@@ -2,7 +2,7 @@
 
 #include "kinegraph/common/errors.h"
 
-namespace kinegraph {
+namespace kinegraph::inline scene_internal {
 
 /// A frame would be attached below itself.
 class FrameCycle : public ValueError {
@@ -10,4 +10,4 @@ class FrameCycle : public ValueError {
   using ValueError::ValueError;
 };
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline scene_internal

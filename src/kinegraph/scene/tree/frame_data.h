@@ -13,10 +13,13 @@
 #include "kinegraph/kinematics/joint.h"
 #include "kinegraph/math/pose.h"
 
+namespace kinegraph::inline scene_internal {
+class SceneTree;
+}
+
 namespace kinegraph {
 
 class CollisionBody;
-class SceneTree;
 struct FrameData;
 
 /// A joint: lets a frame move relative to its parent. Its dofs `q` determine the frame's relative pose completely; only

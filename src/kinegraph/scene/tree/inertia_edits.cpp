@@ -8,7 +8,7 @@
 #include "kinegraph/geometry/shapes/shape_kinds.h"
 #include "kinegraph/geometry/shapes/shape_types.h"
 
-namespace kinegraph {
+namespace kinegraph::inline scene_internal {
 
 namespace {
 
@@ -154,4 +154,4 @@ void processInertias(SceneTree& scene, const InertiaOptions& options) {
   scene.structureChanged();
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline scene_internal

@@ -2,7 +2,7 @@
 
 #include "kinegraph/scene/tree/scene_tree.h"
 
-namespace kinegraph {
+namespace kinegraph::inline scene_internal {
 
 /// Surface density of shapes without a given mass, kg/m^2.
 constexpr double kSurfaceDensity = 5.;
@@ -30,4 +30,4 @@ struct InertiaOptions {
 /// inertia instead.
 void processInertias(SceneTree& scene, const InertiaOptions& options = {});
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline scene_internal

@@ -5,7 +5,7 @@
 
 #include "kinegraph/common/text.h"
 
-namespace kinegraph {
+namespace kinegraph::inline scene_internal {
 
 std::string limitsError(std::span<const double> limits) {
   if (std::any_of(limits.begin(), limits.end(), [](double limit) { return std::isnan(limit); }))
@@ -65,4 +65,4 @@ bool moveToEqualLimits(std::span<const MotionStep> steps, std::span<const double
   return moved;
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline scene_internal

@@ -7,7 +7,7 @@
 
 #include "kinegraph/kinematics/joint.h"
 
-namespace kinegraph {
+namespace kinegraph::inline scene_internal {
 
 /// Explains why `limits` are not the limits of a joint with `limits.size() / 2` dofs (all lower, then all upper); "" if
 /// they are valid. [-1 1 -1 1] is not: it would fix every dof.
@@ -21,4 +21,4 @@ std::optional<std::vector<double>> limitsInTurn(std::span<const double> limits, 
 /// then all upper ones, or empty. Joints with a quaternion stay as they are. Returns whether q changed.
 bool moveToEqualLimits(std::span<const MotionStep> steps, std::span<const double> limits, std::span<double> q);
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline scene_internal

@@ -6,7 +6,7 @@
 
 #include "kinegraph/scene/tree/frame_data.h"
 
-namespace kinegraph {
+namespace kinegraph::inline scene_internal {
 
 /// The first and the last frame of each name, for fast look-up in scenes of thousands of frames. `ready` reports
 /// whether the index is complete; small scenes are searched without it.
@@ -49,4 +49,4 @@ class NameIndex {
   bool ready_ = false;
 };
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline scene_internal

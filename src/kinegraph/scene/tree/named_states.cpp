@@ -5,7 +5,7 @@
 #include "kinegraph/common/errors.h"
 #include "kinegraph/common/text.h"
 
-namespace kinegraph {
+namespace kinegraph::inline scene_internal {
 
 namespace {
 
@@ -115,4 +115,4 @@ std::vector<std::pair<std::string, std::vector<std::string>>> jointGroups(const 
   return groups;
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline scene_internal

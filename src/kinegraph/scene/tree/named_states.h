@@ -7,7 +7,7 @@
 #include "kinegraph/math/pose.h"
 #include "kinegraph/scene/tree/scene_tree.h"
 
-namespace kinegraph {
+namespace kinegraph::inline scene_internal {
 
 // Named joint states and groups of joints. They are attributes of the joints' frames, so they are copied, saved and
 // deleted with them:
@@ -26,4 +26,4 @@ VectorXd namedState(SceneTree& scene, const std::string& name, const std::string
 /// Names of groups, in order of first appearance, and the names of their joints' frames.
 std::vector<std::pair<std::string, std::vector<std::string>>> jointGroups(const SceneTree& scene);
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline scene_internal

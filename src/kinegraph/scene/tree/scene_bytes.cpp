@@ -12,7 +12,7 @@
 #include "kinegraph/geometry/shapes/shape_types.h"
 #include "kinegraph/scene/tree/tree_edits.h"
 
-namespace kinegraph {
+namespace kinegraph::inline scene_internal {
 
 namespace {
 
@@ -393,4 +393,4 @@ std::shared_ptr<SceneTree> sceneFromBytes(std::string_view bytes) {
   return scene;
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline scene_internal

@@ -9,7 +9,7 @@
 #include "kinegraph/common/text.h"
 #include "kinegraph/scene/tree/frame_cycle.h"
 
-namespace kinegraph {
+namespace kinegraph::inline scene_internal {
 
 namespace {
 
@@ -339,4 +339,4 @@ void SceneTree::setJointState(const double* q) {
   jointsChanged();
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline scene_internal

@@ -12,8 +12,10 @@
 #include "kinegraph/scene/tree/name_index.h"
 
 namespace kinegraph {
-
 class ConfigViewer;
+}
+
+namespace kinegraph::inline scene_internal {
 
 /// The frames of a configuration and the data compiled from them. Config and Frame are handles on it.
 ///
@@ -176,4 +178,4 @@ std::vector<LinkInertia> collectInertias(const SceneTree& scene, const Kinematic
 /// Collision rules of the shapes of a scene; see Config::getCollidablePairs.
 ContactRules contactRules(const SceneTree& scene);
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline scene_internal

@@ -7,7 +7,7 @@
 #include "kinegraph/geometry/shapes/shape_kinds.h"
 #include "kinegraph/scene/tree/tree_edits.h"
 
-namespace kinegraph {
+namespace kinegraph::inline scene_internal {
 
 namespace {
 
@@ -141,4 +141,4 @@ void checkConsistency(const SceneTree& scene) {
   }
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline scene_internal

@@ -5,7 +5,7 @@
 #include "kinegraph/common/errors.h"
 #include "kinegraph/common/text.h"
 
-namespace kinegraph {
+namespace kinegraph::inline scene_internal {
 
 namespace {
 
@@ -178,4 +178,4 @@ void recalibrateJointsToZero(SceneTree& scene) {
   scene.structureChanged();
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline scene_internal

@@ -2,7 +2,7 @@
 
 #include "kinegraph/scene/tree/scene_tree.h"
 
-namespace kinegraph {
+namespace kinegraph::inline scene_internal {
 
 /// Makes a frame the root of its tree by reversing the path above it; all frames keep their world poses. The joints on
 /// the path are inverted and move to the frame below them, so a hinge at q becomes -q and its limits swap and change
@@ -38,4 +38,4 @@ void simplifyStructure(SceneTree& scene, const Simplification& options = {});
 /// quaternions that are not unit. Edits by functions of this library keep a scene consistent.
 void checkConsistency(const SceneTree& scene);
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline scene_internal

@@ -5,7 +5,7 @@
 #include "kinegraph/geometry/files/mesh_cache.h"
 #include "kinegraph/geometry/shapes/textured_surface.h"
 
-namespace kinegraph {
+namespace kinegraph::inline scene_internal {
 
 std::shared_ptr<const Geometry> VisualMeshes::of(const Shape& shape) {
   std::shared_ptr<const Geometry> geometry = fromFile(shape);
@@ -42,4 +42,4 @@ std::shared_ptr<const Geometry> VisualMeshes::fromFile(const Shape& shape) {
   return place->second;
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline scene_internal

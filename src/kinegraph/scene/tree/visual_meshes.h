@@ -7,7 +7,7 @@
 
 #include "kinegraph/scene/tree/frame_data.h"
 
-namespace kinegraph {
+namespace kinegraph::inline scene_internal {
 
 /// Visual geometry of shapes: mesh files, each read once, and textured surfaces.
 class VisualMeshes {
@@ -25,4 +25,4 @@ class VisualMeshes {
   std::map<Covered, std::shared_ptr<const Geometry>> covered_;     ///< textured surfaces; null: no surface to texture
 };
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline scene_internal

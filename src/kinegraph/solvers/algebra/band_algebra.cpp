@@ -7,7 +7,7 @@
 
 #include "kinegraph/solvers/algebra/band_layout.h"
 
-namespace kinegraph {
+namespace kinegraph::inline solvers_internal {
 
 BandAlgebra::BandAlgebra(const Nlp& nlp, const Jacobian& pattern, const std::vector<int>& constraints, bool full)
     : n_(nlp.dimension()), constraints_(constraints) {
@@ -144,4 +144,4 @@ void BandAlgebra::solve(Vector& x) {
   for (Eigen::Index i = 0; i < x.size(); ++i) x[i] = placed_[place_[i]];
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline solvers_internal

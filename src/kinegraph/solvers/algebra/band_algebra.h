@@ -6,7 +6,7 @@
 #include "kinegraph/math/banded_matrix.h"
 #include "kinegraph/nlp/nlp.h"
 
-namespace kinegraph {
+namespace kinegraph::inline solvers_internal {
 
 /// The linear algebra of a SemismoothModel of any size. Matrices are banded with a border, in an order of the variables
 /// that makes the band narrow. Rows are those of the Jacobian.
@@ -90,4 +90,4 @@ class BandAlgebra {
   BandedMatrix* H_ = &H_linear_;
 };
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline solvers_internal

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <numeric>
 
-namespace kinegraph {
+namespace kinegraph::inline solvers_internal {
 
 namespace {
 
@@ -60,4 +60,4 @@ BandedMatrix bandedMatrix(const BandLayout& layout, const Jacobian& pattern) {
   return BandedMatrix(std::move(last), layout.shared);
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline solvers_internal

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-namespace kinegraph {
+namespace kinegraph::inline solvers_internal {
 
 namespace {
 
@@ -51,4 +51,4 @@ MatrixXd ConstraintCurvature::observed(const VectorXd& multipliers) const {
   return rows;
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline solvers_internal

@@ -4,7 +4,7 @@
 
 #include "kinegraph/nlp/nlp.h"
 
-namespace kinegraph {
+namespace kinegraph::inline solvers_internal {
 
 /// Estimates the second derivatives of constraints from changes of their gradients (SR1), one matrix per constraint.
 /// The estimates are symmetric and may be indefinite. They stay zero for linear constraints and are exact for quadratic
@@ -35,4 +35,4 @@ class ConstraintCurvature {
   VectorXd r_;
 };
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline solvers_internal

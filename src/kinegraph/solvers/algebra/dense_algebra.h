@@ -6,7 +6,7 @@
 
 #include "kinegraph/nlp/nlp.h"
 
-namespace kinegraph {
+namespace kinegraph::inline solvers_internal {
 
 /// The linear algebra of a SemismoothModel of at most N variables (see BandAlgebra): vectors and matrices have the
 /// fixed size N. Padding entries are zero in vectors and rows, and those of the identity in H and K.
@@ -187,4 +187,4 @@ class DenseAlgebra {
   Vector inverse_;  ///< of D
 };
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline solvers_internal

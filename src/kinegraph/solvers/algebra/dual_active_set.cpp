@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-namespace kinegraph {
+namespace kinegraph::inline solvers_internal {
 
 namespace {
 
@@ -186,4 +186,4 @@ QuadraticStatus DualActiveSet::solve() {
   return QuadraticStatus::stalled;
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline solvers_internal

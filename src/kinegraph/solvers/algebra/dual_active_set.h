@@ -3,7 +3,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-namespace kinegraph {
+namespace kinegraph::inline solvers_internal {
 
 enum class QuadraticStatus {
   solved,
@@ -94,4 +94,4 @@ class DualActiveSet {
   std::vector<char> is_active_;
 };
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline solvers_internal

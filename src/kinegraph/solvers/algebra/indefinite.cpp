@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <vector>
 
-namespace kinegraph {
+namespace kinegraph::inline solvers_internal {
 
 namespace {
 
@@ -90,4 +90,4 @@ std::optional<VectorXd> negativeCurvature(const MatrixXd& W, Restriction rows, d
   return std::nullopt;
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline solvers_internal

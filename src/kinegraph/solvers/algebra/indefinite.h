@@ -4,7 +4,7 @@
 
 #include "kinegraph/math/pose.h"
 
-namespace kinegraph {
+namespace kinegraph::inline solvers_internal {
 
 /// The quadratic function 1/2 d^T H d + g^T d.
 struct QuadraticFunction {
@@ -35,4 +35,4 @@ MatrixXd nullSpace(const MatrixXd& rows);
 /// constraints.)
 std::optional<VectorXd> negativeCurvature(const MatrixXd& W, Restriction rows, double least);
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline solvers_internal

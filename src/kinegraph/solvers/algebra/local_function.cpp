@@ -3,7 +3,7 @@
 #include "kinegraph/solvers/algebra/band_algebra.h"
 #include "kinegraph/solvers/algebra/dense_algebra.h"
 
-namespace kinegraph {
+namespace kinegraph::inline solvers_internal {
 
 template <class Algebra>
 LocalFunction<Algebra>::LocalFunction(const Nlp& nlp, const Jacobian& pattern, const std::vector<int>& costs,
@@ -107,4 +107,4 @@ double LocalFunction<Algebra>::largestCurvature() const {
 template class LocalFunction<BandAlgebra>;
 template class LocalFunction<DenseAlgebra<8>>;
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline solvers_internal

@@ -5,7 +5,7 @@
 
 #include "kinegraph/solvers/algebra/local_model.h"
 
-namespace kinegraph {
+namespace kinegraph::inline solvers_internal {
 
 /// The terms of a LocalModel at a point: costs, constraints, and their curvature, with the vectors and matrices of an
 /// `Algebra`: BandAlgebra or DenseAlgebra. local_function.cpp instantiates it for both; SemismoothModel minimizes it.
@@ -63,4 +63,4 @@ class LocalFunction : public LocalModel {
   std::vector<Curved> curved_;
 };
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline solvers_internal

@@ -4,7 +4,7 @@
 #include "kinegraph/solvers/algebra/dense_algebra.h"
 #include "kinegraph/solvers/algebra/semismooth_model.h"
 
-namespace kinegraph {
+namespace kinegraph::inline solvers_internal {
 
 std::unique_ptr<LocalModel> makeLocalModel(const Nlp& nlp, const Jacobian& pattern, const std::vector<int>& costs,
                                            std::vector<int> constraints) {
@@ -14,4 +14,4 @@ std::unique_ptr<LocalModel> makeLocalModel(const Nlp& nlp, const Jacobian& patte
   return std::make_unique<SemismoothModel<BandAlgebra>>(nlp, pattern, costs, std::move(constraints));
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline solvers_internal

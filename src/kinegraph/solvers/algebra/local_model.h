@@ -5,7 +5,7 @@
 
 #include "kinegraph/nlp/nlp.h"
 
-namespace kinegraph {
+namespace kinegraph::inline solvers_internal {
 
 /// A local model of the augmented Lagrangian, with linearized residuals, as a function of a step d in a box:
 ///
@@ -64,4 +64,4 @@ class LocalModel {
 std::unique_ptr<LocalModel> makeLocalModel(const Nlp& nlp, const Jacobian& pattern, const std::vector<int>& costs,
                                            std::vector<int> constraints);
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline solvers_internal

@@ -1,6 +1,6 @@
 #include "kinegraph/solvers/algebra/quadratic_program.h"
 
-namespace kinegraph {
+namespace kinegraph::inline solvers_internal {
 
 QuadraticSolution solve(const QuadraticProgram& program, DualActiveSet& workspace) {
   const int n = int(program.g.size()), m = int(program.b.size());
@@ -35,4 +35,4 @@ QuadraticSolution solve(const QuadraticProgram& program) {
   return solve(program, workspace);
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline solvers_internal

@@ -3,7 +3,7 @@
 #include "kinegraph/math/pose.h"
 #include "kinegraph/solvers/algebra/dual_active_set.h"
 
-namespace kinegraph {
+namespace kinegraph::inline solvers_internal {
 
 /// min 1/2 x^T H x + g^T x  subject to  A x + b = 0 in the first `equalities` rows and A x + b <= 0 in the others.
 struct QuadraticProgram {
@@ -25,4 +25,4 @@ struct QuadraticSolution {
 QuadraticSolution solve(const QuadraticProgram& program, DualActiveSet& workspace);
 QuadraticSolution solve(const QuadraticProgram& program);
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline solvers_internal

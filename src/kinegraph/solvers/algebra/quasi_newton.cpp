@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace kinegraph {
+namespace kinegraph::inline solvers_internal {
 
 void QuasiNewton::update(const VectorXd& s, const VectorXd& y) {
   const double ss = s.cwiseQuotient(unit_).squaredNorm(), sy = s.dot(y);
@@ -23,4 +23,4 @@ void QuasiNewton::update(const VectorXd& s, const VectorXd& y) {
   B_ += r_ * r_.transpose() / s.dot(r_) - Bs_ * Bs_.transpose() / sBs;
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline solvers_internal

@@ -2,7 +2,7 @@
 
 #include "kinegraph/math/pose.h"
 
-namespace kinegraph {
+namespace kinegraph::inline solvers_internal {
 
 /// Estimates a Hessian from changes of the gradient by damped BFGS, which keeps it positive definite.
 /// Source: Nocedal & Wright, Numerical Optimization, 2nd ed., procedure 18.2.
@@ -29,4 +29,4 @@ class QuasiNewton {
   bool empty_ = true;
 };
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline solvers_internal

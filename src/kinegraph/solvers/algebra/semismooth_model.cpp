@@ -7,7 +7,7 @@
 #include "kinegraph/solvers/algebra/band_algebra.h"
 #include "kinegraph/solvers/algebra/dense_algebra.h"
 
-namespace kinegraph {
+namespace kinegraph::inline solvers_internal {
 
 template <class Algebra>
 SemismoothModel<Algebra>::SemismoothModel(const Nlp& nlp, const Jacobian& pattern, const std::vector<int>& costs,
@@ -359,4 +359,4 @@ const VectorXd& SemismoothModel<Algebra>::minimize(const Problem& problem) {
 template class SemismoothModel<BandAlgebra>;
 template class SemismoothModel<DenseAlgebra<8>>;
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline solvers_internal

@@ -4,7 +4,7 @@
 
 #include "kinegraph/solvers/algebra/local_function.h"
 
-namespace kinegraph {
+namespace kinegraph::inline solvers_internal {
 
 /// A LocalModel that a semismooth Newton method minimizes, with the vectors and matrices of an `Algebra`: BandAlgebra
 /// or DenseAlgebra. semismooth_model.cpp instantiates it for both.
@@ -64,4 +64,4 @@ class SemismoothModel final : public LocalFunction<Algebra> {
   double factored_mu_ = 0., factored_damping_ = 0.;
 };
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline solvers_internal

@@ -1,6 +1,6 @@
 #include "kinegraph/solvers/interface/best_so_far.h"
 
-namespace kinegraph {
+namespace kinegraph::inline solvers_internal {
 
 void BestSoFar::see(const VectorXd& x, const VectorXd& phi) {
   if (!phi.allFinite()) return;
@@ -25,4 +25,4 @@ SolverResult BestSoFar::result(int evals) const {
   return result;
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline solvers_internal

@@ -2,7 +2,7 @@
 
 #include "kinegraph/solvers/interface/result.h"
 
-namespace kinegraph {
+namespace kinegraph::inline solvers_internal {
 
 /// Keeps the best point of a solver, as the result of a solve that an exception ends: feasible points before infeasible
 /// ones, then the least cost, or the least violation.
@@ -23,4 +23,4 @@ class BestSoFar {
   VectorXd x_, phi_;
 };
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline solvers_internal

@@ -3,7 +3,7 @@
 #include "kinegraph/common/errors.h"
 #include "kinegraph/common/text.h"
 
-namespace kinegraph {
+namespace kinegraph::inline solvers_internal {
 
 void requireStart(const Nlp& nlp, const VectorXd& x0) {
   if (x0.size() != nlp.dimension()) {
@@ -21,4 +21,4 @@ void requireNoConstraints(const Nlp& nlp, const char* method) {
   }
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline solvers_internal

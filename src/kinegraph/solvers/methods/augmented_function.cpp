@@ -5,7 +5,7 @@
 
 // The augmented Lagrangian as a function: value, multipliers, errors and local model.
 
-namespace kinegraph {
+namespace kinegraph::inline solvers_internal {
 
 /// Computes lambda + mu c, clipped at zero for inequalities.
 void AugmentedLagrangian::findMultipliers(const VectorXd& c, VectorXd& t) const {
@@ -96,4 +96,4 @@ void AugmentedLagrangian::makeBox() {
   high_ = (upper_ - here_.x).cwiseMin(radius_.value());
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline solvers_internal

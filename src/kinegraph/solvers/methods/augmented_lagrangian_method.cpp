@@ -8,7 +8,7 @@
 #include "kinegraph/common/text.h"
 #include "kinegraph/solvers/methods/quadratic_step.h"
 
-namespace kinegraph {
+namespace kinegraph::inline solvers_internal {
 
 AugmentedLagrangian::AugmentedLagrangian(Nlp& nlp, Memory& memory, const VectorXd& x0, const SolverOptions& options)
     : nlp_(nlp),
@@ -423,4 +423,4 @@ bool AugmentedLagrangian::evaluate(EvaluatedPoint& point) {
   return false;
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline solvers_internal

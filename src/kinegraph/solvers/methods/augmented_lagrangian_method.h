@@ -37,6 +37,10 @@ struct AugmentedLagrangianMemory::Parts {
   std::string message;  ///< the reason of its end
 };
 
+}  // namespace kinegraph
+
+namespace kinegraph::inline solvers_internal {
+
 /// The implementation of solveAugmentedLagrangian. `c` (constraints, equalities first), `cost` and `lagrangian` are h,
 /// f and L of Nocedal & Wright, ch. 17.4; lambda and mu are theirs.
 class AugmentedLagrangian {
@@ -177,4 +181,4 @@ class AugmentedLagrangian {
   std::string_view refusal_;  ///< reason why the last step was refused; empty if accepted
 };
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline solvers_internal

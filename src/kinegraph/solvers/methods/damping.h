@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <limits>
 
-namespace kinegraph {
+namespace kinegraph::inline solvers_internal {
 
 /// Levenberg damping: the multiple of the identity that is added to the Hessian of the model. It shortens steps if the
 /// model is inaccurate, decreases after accurate steps, and grows faster and faster while steps are refused. The scale
@@ -84,4 +84,4 @@ class Damping {
   int wary_steps_ = 0;
 };
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline solvers_internal

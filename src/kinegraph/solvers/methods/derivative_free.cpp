@@ -9,7 +9,7 @@
 #include "kinegraph/common/text.h"
 #include "kinegraph/solvers/problems/cost_function.h"
 
-namespace kinegraph {
+namespace kinegraph::inline solvers_internal {
 
 namespace {
 
@@ -160,4 +160,4 @@ SolverResult solveCma(Nlp& nlp, const VectorXd& x0, const SolverOptions& options
   return cost.result(SolverStatus::stalled, "");
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline solvers_internal

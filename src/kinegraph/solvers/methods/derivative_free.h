@@ -2,7 +2,7 @@
 
 #include "kinegraph/solvers/methods/augmented_lagrangian.h"
 
-namespace kinegraph {
+namespace kinegraph::inline solvers_internal {
 
 /// Derivative-free methods for problems without constraints, for functions with noise, steps or many minima. They
 /// project to the bounds and throw ValueError for problems with constraints.
@@ -17,4 +17,4 @@ SolverResult solveNelderMead(Nlp& nlp, const VectorXd& x0, const SolverOptions& 
 SolverResult solveCma(Nlp& nlp, const VectorXd& x0, const SolverOptions& options,
                       const EvaluationCallback& callback = {});
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline solvers_internal

@@ -7,7 +7,7 @@
 #include "kinegraph/common/text.h"
 #include "kinegraph/solvers/problems/cost_function.h"
 
-namespace kinegraph {
+namespace kinegraph::inline solvers_internal {
 
 namespace {
 
@@ -153,4 +153,4 @@ SolverResult solveLbfgs(Nlp& nlp, const VectorXd& x0, const SolverOptions& optio
   return cost.result(SolverStatus::stalled, "");
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline solvers_internal

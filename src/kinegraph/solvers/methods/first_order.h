@@ -2,7 +2,7 @@
 
 #include "kinegraph/solvers/methods/augmented_lagrangian.h"
 
-namespace kinegraph {
+namespace kinegraph::inline solvers_internal {
 
 /// First-order methods for problems without constraints. They project to the bounds, converge when the step is below
 /// stopTolerance, and throw ValueError for problems with constraints.
@@ -21,4 +21,4 @@ SolverResult solveRprop(Nlp& nlp, const VectorXd& x0, const SolverOptions& optio
 SolverResult solveLbfgs(Nlp& nlp, const VectorXd& x0, const SolverOptions& options,
                         const EvaluationCallback& callback = {});
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline solvers_internal

@@ -9,7 +9,7 @@
 
 // Sequential quadratic programming with a known, possibly indefinite Hessian of the costs.
 
-namespace kinegraph {
+namespace kinegraph::inline solvers_internal {
 
 namespace {
 
@@ -220,4 +220,4 @@ bool SequentialQuadratic::escapesSaddle(const Step& step) {
   return false;
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline solvers_internal

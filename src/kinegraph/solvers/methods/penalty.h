@@ -5,7 +5,7 @@
 
 #include "kinegraph/solvers/interface/options.h"
 
-namespace kinegraph {
+namespace kinegraph::inline solvers_internal {
 
 /// The weight mu of the squared constraints in the augmented Lagrangian. It starts at muInit and grows by the factor
 /// muInc, up to muMax, after outer iterations with an insufficient decrease of the violation. All are in units of the
@@ -42,4 +42,4 @@ class Penalty {
   double init_, growth_, most_, cost_weight_, value_;
 };
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline solvers_internal

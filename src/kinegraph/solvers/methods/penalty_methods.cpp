@@ -9,7 +9,7 @@
 #include "kinegraph/solvers/problems/penalty_nlp.h"
 #include "kinegraph/solvers/problems/relaxed_nlp.h"
 
-namespace kinegraph {
+namespace kinegraph::inline solvers_internal {
 
 namespace {
 
@@ -141,4 +141,4 @@ SolverResult solveSlack(Nlp& nlp, const VectorXd& x0, const SolverOptions& optio
       holds ? cat("all constraints hold to ", violation) : cat("no step reduces the violation ", violation));
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline solvers_internal

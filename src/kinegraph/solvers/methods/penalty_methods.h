@@ -2,7 +2,7 @@
 
 #include "kinegraph/solvers/methods/augmented_lagrangian.h"
 
-namespace kinegraph {
+namespace kinegraph::inline solvers_internal {
 
 /// Solves a sequence of problems with squared penalties for the constraints. Their weight grows from muInit by muInc
 /// until the constraints hold within the tolerance or the weight reaches muMax. `single`: one problem with weight
@@ -20,4 +20,4 @@ SolverResult solveLogBarrier(Nlp& nlp, const VectorXd& x0, const SolverOptions& 
 /// inequalities is -interiorPadding.
 SolverResult solveSlack(Nlp& nlp, const VectorXd& x0, const SolverOptions& options, const EvaluationCallback& callback);
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline solvers_internal

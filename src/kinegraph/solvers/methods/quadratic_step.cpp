@@ -6,7 +6,7 @@
 
 #include "kinegraph/solvers/algebra/quadratic_program.h"
 
-namespace kinegraph {
+namespace kinegraph::inline solvers_internal {
 
 namespace {
 
@@ -154,4 +154,4 @@ bool isSolution(const ConstrainedFunction& function, const VectorXd& x, const Ve
   return true;
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline solvers_internal

@@ -4,7 +4,7 @@
 
 #include "kinegraph/solvers/problems/constrained_function.h"
 
-namespace kinegraph {
+namespace kinegraph::inline solvers_internal {
 
 /// The solution of the problem with linearized residuals, with the multipliers of the constraints.
 struct QuadraticStep {
@@ -21,4 +21,4 @@ std::optional<QuadraticStep> quadraticStep(const ConstrainedFunction& function, 
 bool isSolution(const ConstrainedFunction& function, const VectorXd& x, const VectorXd& phi, const Jacobian& J,
                 const VectorXd& multipliers);
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline solvers_internal

@@ -5,7 +5,7 @@
 
 // The restoration phase, for constraints that may contradict each other.
 
-namespace kinegraph {
+namespace kinegraph::inline solvers_internal {
 
 namespace {
 
@@ -90,4 +90,4 @@ void AugmentedLagrangian::reduceViolation() {
   }
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline solvers_internal

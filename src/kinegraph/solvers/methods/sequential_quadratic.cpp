@@ -8,7 +8,7 @@
 #include "kinegraph/common/text.h"
 #include "kinegraph/solvers/methods/sequential_quadratic_method.h"
 
-namespace kinegraph {
+namespace kinegraph::inline solvers_internal {
 
 namespace {
 
@@ -313,4 +313,4 @@ SolverResult solveSequentialQuadratic(Nlp& nlp, const VectorXd& x0, const Solver
   return SequentialQuadratic(nlp, x0, options, callback).run(dual);
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline solvers_internal

@@ -2,7 +2,7 @@
 
 #include "kinegraph/solvers/methods/augmented_lagrangian.h"
 
-namespace kinegraph {
+namespace kinegraph::inline solvers_internal {
 
 /// Describes the known curvature of the costs of a problem.
 enum class CostCurvature {
@@ -28,4 +28,4 @@ CostCurvature costCurvature(Nlp& nlp, const VectorXd& x);
 SolverResult solveSequentialQuadratic(Nlp& nlp, const VectorXd& x0, const SolverOptions& options,
                                       const EvaluationCallback& callback = {}, const VectorXd& dual = {});
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline solvers_internal

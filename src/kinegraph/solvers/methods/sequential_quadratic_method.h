@@ -9,7 +9,7 @@
 #include "kinegraph/solvers/methods/sequential_quadratic.h"
 #include "kinegraph/solvers/problems/constrained_function.h"
 
-namespace kinegraph {
+namespace kinegraph::inline solvers_internal {
 
 /// The implementation of solveSequentialQuadratic. known_curvature.cpp handles problems with a known Hessian of the
 /// costs.
@@ -111,4 +111,4 @@ class SequentialQuadratic {
   double radius_ = std::numeric_limits<double>::infinity();  ///< of steps, if the Hessian is known
 };
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline solvers_internal

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace kinegraph {
+namespace kinegraph::inline solvers_internal {
 
 /// The largest entry of a step: stepMax at first, and more after accurate long steps.
 class StepRadius {
@@ -42,4 +42,4 @@ class StepRadius {
   int steps_at_edge_ = 0;
 };
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline solvers_internal

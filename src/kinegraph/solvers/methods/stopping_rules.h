@@ -6,7 +6,7 @@
 
 #include "kinegraph/solvers/interface/options.h"
 
-namespace kinegraph {
+namespace kinegraph::inline solvers_internal {
 
 /// Decides whether an inner problem (minimize the Lagrangian for given multipliers and penalty) is solved well enough
 /// to update the multipliers. Each outer iteration is more accurate than the one before.
@@ -164,4 +164,4 @@ class CorrectionTest {
   int wait_ = 0, failures_ = 0;
 };
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline solvers_internal

@@ -7,7 +7,7 @@
 #include "kinegraph/common/text.h"
 #include "kinegraph/solvers/interface/requirements.h"
 
-namespace kinegraph {
+namespace kinegraph::inline solvers_internal {
 
 ConstrainedFunction::ConstrainedFunction(Nlp& nlp)
     : nlp_(nlp),
@@ -173,4 +173,4 @@ SolverResult ConstrainedFunction::result(const PointValues& point, const VectorX
   return out;
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline solvers_internal

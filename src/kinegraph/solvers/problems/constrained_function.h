@@ -7,7 +7,7 @@
 #include "kinegraph/solvers/interface/options.h"
 #include "kinegraph/solvers/interface/result.h"
 
-namespace kinegraph {
+namespace kinegraph::inline solvers_internal {
 
 /// A point and its values.
 struct PointValues {
@@ -98,4 +98,4 @@ class ConstrainedFunction {
   PointValues best_;
 };
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline solvers_internal

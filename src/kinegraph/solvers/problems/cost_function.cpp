@@ -7,7 +7,7 @@
 #include "kinegraph/common/text.h"
 #include "kinegraph/solvers/interface/requirements.h"
 
-namespace kinegraph {
+namespace kinegraph::inline solvers_internal {
 
 CostFunction::CostFunction(Nlp& nlp, const VectorXd& x0, const SolverOptions& options,
                            const EvaluationCallback& callback, const char* method, bool with_gradient)
@@ -78,4 +78,4 @@ SolverResult CostFunction::result(SolverStatus status, std::string message) {
   return out;
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline solvers_internal

@@ -5,7 +5,7 @@
 #include "kinegraph/solvers/interface/options.h"
 #include "kinegraph/solvers/interface/result.h"
 
-namespace kinegraph {
+namespace kinegraph::inline solvers_internal {
 
 /// A problem without constraints as one function of x within bounds:
 ///     F = sum_f phi + sum_sos phi^2 + sum_ineqP max(0, phi)^2
@@ -53,4 +53,4 @@ class CostFunction {
   std::string trouble_;
 };
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline solvers_internal

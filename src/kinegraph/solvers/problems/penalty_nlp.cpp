@@ -5,7 +5,7 @@
 
 #include "kinegraph/nlp/evaluation_sizes.h"
 
-namespace kinegraph {
+namespace kinegraph::inline solvers_internal {
 
 bool isInequality(ObjectiveType type) { return type == ObjectiveType::ineq || type == ObjectiveType::ineqB; }
 
@@ -92,4 +92,4 @@ std::shared_ptr<Nlp> makePenalized(std::shared_ptr<Nlp> nlp, double mu, double b
   return {chain, last};
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline solvers_internal

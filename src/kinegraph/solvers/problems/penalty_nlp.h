@@ -4,7 +4,7 @@
 
 #include "kinegraph/nlp/nlp.h"
 
-namespace kinegraph {
+namespace kinegraph::inline solvers_internal {
 
 /// Replaces the constraints of a problem by costs: eq -> mu phi^2, ineq -> mu max(0, phi)^2.
 class PenaltyNlp final : public Nlp {
@@ -56,4 +56,4 @@ bool isInequality(ObjectiveType type);
 /// remaining constraints. A negative weight leaves the constraints unchanged. The result keeps `nlp` alive.
 std::shared_ptr<Nlp> makePenalized(std::shared_ptr<Nlp> nlp, double mu, double barrier);
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline solvers_internal

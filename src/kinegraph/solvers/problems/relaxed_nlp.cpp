@@ -6,7 +6,7 @@
 
 #include "kinegraph/nlp/evaluation_sizes.h"
 
-namespace kinegraph {
+namespace kinegraph::inline solvers_internal {
 
 RelaxedNlp::RelaxedNlp(Nlp& nlp, const std::vector<bool>& relaxed, int variable)
     : nlp_(nlp), variable_(variable), inner_phi_(Eigen::Index(nlp.types().size())), inner_(nlp.makeJacobian()) {
@@ -58,4 +58,4 @@ void RelaxedNlp::evaluate(const VectorXd& x, VectorXd& phi, Jacobian* J) {
   J->values.push_back(std::isfinite(high) ? 1. : 0.);
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline solvers_internal

@@ -2,7 +2,7 @@
 
 #include "kinegraph/nlp/nlp.h"
 
-namespace kinegraph {
+namespace kinegraph::inline solvers_internal {
 
 /// The constraints of a problem without its costs; squared penalties replace the relaxed ones. If all are relaxed, the
 /// solution is the point of least violation.
@@ -27,4 +27,4 @@ class RelaxedNlp final : public Nlp {
   Jacobian inner_;
 };
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline solvers_internal

@@ -6,7 +6,7 @@
 #include <limits>
 #include <optional>
 
-namespace kinegraph {
+namespace kinegraph::inline solvers_internal {
 
 namespace {
 
@@ -208,4 +208,4 @@ SampledPoint walkInside(SampledProblem& problem, const SampledPoint& start, int 
   return start;
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline solvers_internal

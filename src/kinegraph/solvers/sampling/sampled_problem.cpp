@@ -8,7 +8,7 @@
 #include "kinegraph/common/errors.h"
 #include "kinegraph/common/text.h"
 
-namespace kinegraph {
+namespace kinegraph::inline solvers_internal {
 
 namespace {
 
@@ -148,4 +148,4 @@ bool SampledProblem::goDownhill(SampledPoint& point, Rng& rng, bool noisy) {
   return isFeasible(point);
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline solvers_internal

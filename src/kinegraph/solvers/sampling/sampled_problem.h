@@ -5,7 +5,7 @@
 #include "kinegraph/solvers/interface/result.h"
 #include "kinegraph/solvers/sampling/sampler.h"
 
-namespace kinegraph {
+namespace kinegraph::inline solvers_internal {
 
 /// A point with its violation and energy.
 struct SampledPoint {
@@ -54,4 +54,4 @@ class SampledProblem {
   bool cancelled_ = false;
 };
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline solvers_internal

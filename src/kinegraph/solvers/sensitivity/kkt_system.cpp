@@ -5,7 +5,7 @@
 #include <iterator>
 #include <numeric>
 
-namespace kinegraph {
+namespace kinegraph::inline solvers_internal {
 
 namespace {
 
@@ -258,4 +258,4 @@ VectorXd KktSystem::leftBy(const VectorXd& v, const VectorXd& w, const VectorXd&
   return left;
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline solvers_internal

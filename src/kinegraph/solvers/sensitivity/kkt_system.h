@@ -6,7 +6,7 @@
 #include "kinegraph/nlp/nlp.h"
 #include "kinegraph/solvers/algebra/band_algebra.h"
 
-namespace kinegraph {
+namespace kinegraph::inline solvers_internal {
 
 /// The linearized optimality conditions (KKT system), for active rows A of the Jacobian and fixed variables:
 ///
@@ -67,4 +67,4 @@ class KktSystem {
   Eigen::CompleteOrthogonalDecomposition<MatrixXd> dense_;
 };
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline solvers_internal

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace kinegraph {
+namespace kinegraph::inline solvers_internal {
 
 namespace {
 
@@ -100,4 +100,4 @@ void LagrangianCurvature::addDifferences(BandAlgebra& H, const VectorXd& x, cons
   }
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline solvers_internal

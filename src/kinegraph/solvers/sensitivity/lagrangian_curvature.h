@@ -5,7 +5,7 @@
 #include "kinegraph/nlp/nlp.h"
 #include "kinegraph/solvers/algebra/band_algebra.h"
 
-namespace kinegraph {
+namespace kinegraph::inline solvers_internal {
 
 /// Computes the second derivatives of sum_i weights_i phi_i: those that the problem knows, and differences of its
 /// Jacobian for the others. One evaluation moves all variables that have no residual in common.
@@ -33,4 +33,4 @@ class LagrangianCurvature {
   MatrixXd block_;
 };
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline solvers_internal

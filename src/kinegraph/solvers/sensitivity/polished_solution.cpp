@@ -10,7 +10,7 @@
 #include "kinegraph/common/text.h"
 #include "kinegraph/solvers/methods/augmented_lagrangian.h"
 
-namespace kinegraph {
+namespace kinegraph::inline solvers_internal {
 
 namespace {
 
@@ -251,4 +251,4 @@ void PolishedSolution::classify() {
   system_.factorize(active, fixed);
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline solvers_internal

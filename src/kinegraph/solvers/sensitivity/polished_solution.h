@@ -7,7 +7,7 @@
 #include "kinegraph/solvers/sensitivity/kkt_system.h"
 #include "kinegraph/solvers/sensitivity/lagrangian_curvature.h"
 
-namespace kinegraph {
+namespace kinegraph::inline solvers_internal {
 
 /// A solution up to rounding errors: a primal-dual active set method refines the result of a solver by a few Newton
 /// steps on the optimality conditions. The linearized conditions stay factorized.
@@ -61,4 +61,4 @@ class PolishedSolution {
   VectorXd bound_multipliers_;        ///< multipliers of the bounds, positive at upper ones
 };
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline solvers_internal

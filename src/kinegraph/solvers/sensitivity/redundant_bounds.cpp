@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace kinegraph {
+namespace kinegraph::inline solvers_internal {
 
 namespace {
 
@@ -95,4 +95,4 @@ void RedundantBounds::move(PolishedSolution& at, const Nlp& nlp, const VectorXd&
   }
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline solvers_internal

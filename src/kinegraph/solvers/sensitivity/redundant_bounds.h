@@ -6,7 +6,7 @@
 #include "kinegraph/nlp/parameter.h"
 #include "kinegraph/solvers/sensitivity/polished_solution.h"
 
-namespace kinegraph {
+namespace kinegraph::inline solvers_internal {
 
 /// Weakly active constraints that are redundant: strongly active ones already fix their variables. An example is a
 /// limit that is both a bound and an objective. The solution stays smooth as long as both move alike.
@@ -29,4 +29,4 @@ class RedundantBounds {
   int moved_ = -1;             ///< variable whose bound moves by one
 };
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline solvers_internal

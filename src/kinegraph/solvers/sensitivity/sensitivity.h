@@ -8,10 +8,12 @@
 #include "kinegraph/nlp/parameter.h"
 #include "kinegraph/solvers/interface/result.h"
 
-namespace kinegraph {
-
+namespace kinegraph::inline solvers_internal {
 class RedundantBounds;
 class PolishedSolution;
+}
+
+namespace kinegraph {
 
 struct SensitivityOptions {
   bool hold_weak = false;  ///< whether weakly active constraints count as active

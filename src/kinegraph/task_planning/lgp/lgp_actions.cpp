@@ -5,7 +5,7 @@
 #include "kinegraph/common/errors.h"
 #include "kinegraph/common/text.h"
 
-namespace kinegraph {
+namespace kinegraph::inline task_planning_internal {
 
 namespace {
 
@@ -129,4 +129,4 @@ void addLgpAction(DefaultLgpAbstraction& tamp, ManipulationHelper& m, double tim
                        "; others need a subclass"));
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline task_planning_internal

@@ -8,7 +8,7 @@
 
 #include "kinegraph/common/text.h"
 
-namespace kinegraph {
+namespace kinegraph::inline task_planning_internal {
 
 namespace {
 
@@ -101,4 +101,4 @@ std::vector<WaypointOverlap> overlapsWithOthers(const Config& C, const Komo& way
   return overlaps;
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline task_planning_internal

@@ -6,7 +6,7 @@
 #include "kinegraph/komo/komo.h"
 #include "kinegraph/task_planning/task_actions.h"
 
-namespace kinegraph {
+namespace kinegraph::inline task_planning_internal {
 
 /// Two frames that overlap in a waypoint, although the action does not name both.
 struct WaypointOverlap {
@@ -24,4 +24,4 @@ struct WaypointOverlap {
 std::vector<WaypointOverlap> overlapsWithOthers(const Config& C, const Komo& waypoints,
                                                 const std::vector<TaskAction>& plan);
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline task_planning_internal

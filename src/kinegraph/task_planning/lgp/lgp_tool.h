@@ -12,6 +12,10 @@
 #include "kinegraph/solvers/interface/result.h"
 #include "kinegraph/task_planning/lgp/lgp_abstraction.h"
 
+namespace kinegraph::inline task_planning_internal {
+class LgpWaypoints;
+}
+
 namespace kinegraph {
 
 /// Options of LgpTool.
@@ -49,7 +53,6 @@ LgpSolve solveFrom(const std::shared_ptr<Komo>& komo, const std::vector<VectorXd
 void solveEach(const std::vector<std::shared_ptr<Komo>>& problems, const LgpOptions& options,
                const std::function<void(int problem, SolverResult result)>& take);
 
-class LgpWaypoints;
 /// How LgpTool::solve ended.
 enum class LgpStatus {
   not_started,    ///< LgpTool::solve was not called yet

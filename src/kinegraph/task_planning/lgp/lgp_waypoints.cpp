@@ -10,7 +10,7 @@
 #include "kinegraph/task_planning/lgp/lgp_overlaps.h"
 #include "kinegraph/task_planning/violated_constraint.h"
 
-namespace kinegraph {
+namespace kinegraph::inline task_planning_internal {
 
 namespace {
 
@@ -129,4 +129,4 @@ std::vector<std::pair<std::string, int>> LgpWaypoints::causes() const {
   return sorted;
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline task_planning_internal

@@ -10,7 +10,7 @@
 #include "kinegraph/task_planning/lgp/lgp_abstraction.h"
 #include "kinegraph/task_planning/lgp/lgp_tool.h"
 
-namespace kinegraph {
+namespace kinegraph::inline task_planning_internal {
 
 /// Solves the waypoint problems of plans in logic, and caches the results. Its arguments must outlive it.
 class LgpWaypoints {
@@ -54,4 +54,4 @@ class LgpWaypoints {
   std::vector<std::pair<std::string, int>> causes_;  ///< in the order of occurrence
 };
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline task_planning_internal

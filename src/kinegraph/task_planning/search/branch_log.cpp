@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace kinegraph {
+namespace kinegraph::inline task_planning_internal {
 
 void BranchLog::addGivenUp(const Actions& actions, const std::string& condition, FutureFailure failure) {
   failure->begin(Priority::normal);
@@ -48,4 +48,4 @@ std::string BranchLog::mainCause() {
   return all.empty() ? "nothing was tried" : all[0].first;
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline task_planning_internal

@@ -7,7 +7,7 @@
 #include "kinegraph/task_planning/search/task_failure.h"
 #include "kinegraph/task_planning/search/task_plan.h"
 
-namespace kinegraph {
+namespace kinegraph::inline task_planning_internal {
 
 /// Records the branches that a search tried and counts the causes for which it gave them up. Causes of failures are
 /// computed only when the log is read.
@@ -49,4 +49,4 @@ class BranchLog {
   std::vector<std::pair<std::string, int>> causes_;
 };
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline task_planning_internal

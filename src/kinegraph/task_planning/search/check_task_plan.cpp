@@ -9,10 +9,10 @@
 #include "kinegraph/common/errors.h"
 #include "kinegraph/common/text.h"
 #include "kinegraph/features/eval.h"
+#include "kinegraph/task_planning/motions/guided_motion.h"
+#include "kinegraph/task_planning/motions/meant_contacts.h"
+#include "kinegraph/task_planning/motions/motion_checks.h"
 #include "kinegraph/task_planning/open_hands.h"
-#include "kinegraph/task_planning/search/guided_motion.h"
-#include "kinegraph/task_planning/search/meant_contacts.h"
-#include "kinegraph/task_planning/search/motion_checks.h"
 #include "kinegraph/task_planning/shape_points.h"
 #include "kinegraph/task_planning/task_tools.h"
 

@@ -6,7 +6,7 @@
 #include "kinegraph/common/text.h"
 #include "kinegraph/task_planning/search/task_conflicts.h"
 
-namespace kinegraph {
+namespace kinegraph::inline task_planning_internal {
 
 namespace {
 
@@ -167,4 +167,4 @@ void ConflictLearner::forbidLast(const Actions& prefix, const std::optional<std:
     logic_.forbidPrefix(prefix);
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline task_planning_internal

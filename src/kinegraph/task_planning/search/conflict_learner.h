@@ -8,7 +8,7 @@
 #include "kinegraph/task_planning/search/task_logic.h"
 #include "kinegraph/task_planning/search/waypoint_cache.h"
 
-namespace kinegraph {
+namespace kinegraph::inline task_planning_internal {
 
 /// Turns failures in geometry into constraints of the logic: which action is impossible, and while which facts hold. A
 /// constraint that is more general than the failed sequence prunes all sequences that would fail in the same way.
@@ -52,4 +52,4 @@ class ConflictLearner {
   bool has_learned_ = false;
 };
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline task_planning_internal

@@ -9,7 +9,7 @@
 #include "kinegraph/task_planning/task_actions.h"
 #include "kinegraph/task_planning/task_tools.h"
 
-namespace kinegraph {
+namespace kinegraph::inline task_planning_internal {
 
 namespace {
 
@@ -50,4 +50,4 @@ bool isCrowded(const Config& C, const TaskPlan& plan) {
   });
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline task_planning_internal

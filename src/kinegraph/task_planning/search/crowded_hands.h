@@ -3,7 +3,7 @@
 #include "kinegraph/scene/config.h"
 #include "kinegraph/task_planning/search/task_plan.h"
 
-namespace kinegraph {
+namespace kinegraph::inline task_planning_internal {
 
 /// Whether the fingers or the palm of a hand were in the way in some branch of a search that failed.
 bool isInTheWay(const Config& C, const TaskPlan& failed);
@@ -12,4 +12,4 @@ bool isInTheWay(const Config& C, const TaskPlan& failed);
 /// warnings of a plan say.
 bool isCrowded(const Config& C, const TaskPlan& plan);
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline task_planning_internal

@@ -8,7 +8,7 @@
 #include "kinegraph/task_planning/place_frames.h"
 #include "kinegraph/task_planning/task_actions.h"
 
-namespace kinegraph {
+namespace kinegraph::inline task_planning_internal {
 
 namespace {
 
@@ -113,4 +113,4 @@ std::string goalFlaw(const Config& C, const GroundProblem& ground) {
   return cat("no sequence of actions makes ", join(missing, " and "), " true");
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline task_planning_internal

@@ -10,6 +10,10 @@
 #include "kinegraph/task_planning/search/task_plan.h"
 #include "kinegraph/task_planning/task_waypoints.h"
 
+namespace kinegraph::inline task_planning_internal {
+class TaskSearch;
+}
+
 namespace kinegraph {
 
 struct TaskOptions {
@@ -53,8 +57,6 @@ TaskPlan planTask(const Config& C, const std::string& goal, const TaskOptions& o
 
 /// Returns a function for TaskPlan::replanner.
 std::function<TaskPlan(const Config&, const RepairOptions&)> replannerTo(std::string goal, TaskOptions options);
-
-class TaskSearch;
 
 /// An anytime search: the first plan is that of planTask, and each further plan is faster than the one before. Further
 /// plans come from other waypoints of the same actions, and from other actions.

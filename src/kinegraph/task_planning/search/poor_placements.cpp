@@ -10,7 +10,7 @@
 #include "kinegraph/task_planning/shape_points.h"
 #include "kinegraph/task_planning/task_tools.h"
 
-namespace kinegraph {
+namespace kinegraph::inline task_planning_internal {
 
 namespace {
 
@@ -93,4 +93,4 @@ std::vector<ImpossibleAction> poorPlacements(const Config& C, const std::vector<
   return poor;
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline task_planning_internal

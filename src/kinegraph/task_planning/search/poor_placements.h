@@ -5,7 +5,7 @@
 #include "kinegraph/scene/config.h"
 #include "kinegraph/task_planning/search/task_proofs.h"
 
-namespace kinegraph {
+namespace kinegraph::inline task_planning_internal {
 
 /// Returns the placements that are excluded as long as other sequences exist.
 ///
@@ -17,4 +17,4 @@ namespace kinegraph {
 std::vector<ImpossibleAction> poorPlacements(const Config& C, const std::vector<TaskAction>& actions,
                                              const std::vector<Literal>& start, const std::vector<Literal>& goal);
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline task_planning_internal

@@ -4,11 +4,11 @@
 #include <atomic>
 
 #include "kinegraph/common/text.h"
-#include "kinegraph/task_planning/search/motion_checks.h"
+#include "kinegraph/task_planning/motions/motion_checks.h"
 #include "kinegraph/task_planning/search/plan_task.h"
 #include "kinegraph/task_planning/search/step_tolerance.h"
 
-namespace kinegraph {
+namespace kinegraph::inline task_planning_internal {
 
 namespace {
 
@@ -331,4 +331,4 @@ TaskPlan SequenceEvaluator::assemble(const Config& C, const TaskWaypoints& waypo
   return plan;
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline task_planning_internal

@@ -7,12 +7,12 @@
 
 #include "kinegraph/common/cancellation.h"
 #include "kinegraph/komo/path/sub_problem.h"
-#include "kinegraph/task_planning/search/task_motions.h"
+#include "kinegraph/task_planning/motions/task_motions.h"
 #include "kinegraph/task_planning/search/task_plan.h"
 #include "kinegraph/task_planning/search/waypoint_solver.h"
 #include "kinegraph/task_planning/task_doors.h"
 
-namespace kinegraph {
+namespace kinegraph::inline task_planning_internal {
 
 /// Evaluates sequences of actions in geometry: solves for waypoints, plans the motions between them, and checks the
 /// plan. A long sequence whose waypoints are not found together is solved in pieces, one after the other, each from the
@@ -78,4 +78,4 @@ class SequenceEvaluator {
   const TaskMotions motions_;
 };
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline task_planning_internal

@@ -4,10 +4,10 @@
 
 #include "kinegraph/common/text.h"
 #include "kinegraph/task_planning/grasps.h"
-#include "kinegraph/task_planning/search/motion_checks.h"
+#include "kinegraph/task_planning/motions/motion_checks.h"
 #include "kinegraph/task_planning/task_tools.h"
 
-namespace kinegraph {
+namespace kinegraph::inline task_planning_internal {
 
 namespace {
 
@@ -87,4 +87,4 @@ StepTolerance toleranceOf(const Config& C, const Surroundings& around, const Mat
   return tolerance;
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline task_planning_internal

@@ -3,10 +3,10 @@
 #include <string>
 #include <vector>
 
-#include "kinegraph/task_planning/search/meant_contacts.h"
+#include "kinegraph/task_planning/motions/meant_contacts.h"
 #include "kinegraph/task_planning/search/task_plan.h"
 
-namespace kinegraph {
+namespace kinegraph::inline task_planning_internal {
 
 /// Tolerances are not computed beyond this, m.
 inline constexpr double kMaxTolerance = .03;
@@ -21,4 +21,4 @@ inline constexpr double kRobust = 3e-3;
 StepTolerance toleranceOf(const Config& C, const Surroundings& around, const MatrixXd& path, const TaskAction& action,
                           const std::vector<std::string>& hands);
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline task_planning_internal

@@ -8,7 +8,7 @@
 #include "kinegraph/logic/plan_search.h"
 #include "kinegraph/task_planning/task_doors.h"
 
-namespace kinegraph {
+namespace kinegraph::inline task_planning_internal {
 
 namespace {
 
@@ -116,4 +116,4 @@ std::string contradiction(const LogicProblem& problem) {
   return cat("no sequence of actions reaches ", join(words, " and "), words.size() > 1 ? " together" : "");
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline task_planning_internal

@@ -6,7 +6,7 @@
 #include "kinegraph/logic/grounding.h"
 #include "kinegraph/task_planning/search/task_proofs.h"
 
-namespace kinegraph {
+namespace kinegraph::inline task_planning_internal {
 
 // Translates failures in geometry to logic: which actions and facts exclude each other.
 
@@ -45,4 +45,4 @@ std::string neededProofs(const GroundProblem& ground, const std::vector<Impossib
 /// Returns a sentence with a minimal set of literals of the goal that no sequence of actions reaches together.
 std::string contradiction(const LogicProblem& problem);
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline task_planning_internal

@@ -8,7 +8,7 @@
 #include "kinegraph/logic/domain.h"
 #include "kinegraph/scene/config.h"
 
-namespace kinegraph {
+namespace kinegraph::inline task_planning_internal {
 
 /// The cause for which a sequence of actions has no waypoints or no motion.
 struct TaskFailure {
@@ -22,4 +22,4 @@ struct TaskFailure {
 /// Null: no failure.
 using FutureFailure = std::shared_ptr<const Speculative<TaskFailure>>;
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline task_planning_internal

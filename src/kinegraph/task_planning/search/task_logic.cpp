@@ -3,7 +3,7 @@
 #include "kinegraph/logic/grounding.h"
 #include "kinegraph/task_planning/search/task_conflicts.h"
 
-namespace kinegraph {
+namespace kinegraph::inline task_planning_internal {
 
 TaskLogic::TaskLogic(LogicDomain domain, std::vector<Literal> goal, std::vector<Literal> start,
                      CancellationToken cancellation)
@@ -72,4 +72,4 @@ std::string TaskLogic::infeasibility() const {
   return neededProofs(problem(), proofs_);
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline task_planning_internal

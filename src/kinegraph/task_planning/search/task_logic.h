@@ -10,7 +10,7 @@
 #include "kinegraph/logic/plan_search.h"
 #include "kinegraph/task_planning/search/task_proofs.h"
 
-namespace kinegraph {
+namespace kinegraph::inline task_planning_internal {
 
 /// The logic of a task: enumerates sequences of actions that reach the goal, the shortest first, under constraints that
 /// proofs and failures in geometry add.
@@ -72,4 +72,4 @@ class TaskLogic {
   std::vector<ImpossibleAction> proofs_;
 };
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline task_planning_internal

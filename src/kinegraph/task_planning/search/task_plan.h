@@ -117,7 +117,7 @@ struct TaskPlan : Trajectory {
   /// ValueError if no branch failed at a waypoint.
   Config failedConfiguration(const Config& C) const;
 
-  /// Executes the plan on a robot; see kinegraph::execute in api/task_execution.h.
+  /// Executes the plan on a robot; see kinegraph::execute in api/execution/task_execution.h.
   TaskExecution execute(BotOp& bot) const;
   TaskExecution execute(BotOp& bot, const ExecutionOptions& options) const;
 

@@ -15,7 +15,7 @@
 #include "kinegraph/task_planning/task_doors.h"
 #include "kinegraph/task_planning/task_tools.h"
 
-namespace kinegraph {
+namespace kinegraph::inline task_planning_internal {
 
 namespace {
 
@@ -393,4 +393,4 @@ std::vector<ImpossibleAction> impossibleActions(const Config& C, const std::vect
   return Proofs(C, start).of(actions);
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline task_planning_internal

@@ -5,7 +5,7 @@
 
 #include "kinegraph/task_planning/task_actions.h"
 
-namespace kinegraph {
+namespace kinegraph::inline task_planning_internal {
 
 /// An action that is impossible while all of the facts hold.
 struct ImpossibleAction {
@@ -33,4 +33,4 @@ Reach reachOf(const Config& C, const std::string& name);
 std::vector<ImpossibleAction> impossibleActions(const Config& C, const std::vector<TaskAction>& actions,
                                                 const std::vector<Literal>& start = {});
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline task_planning_internal

@@ -10,17 +10,17 @@
 #include "kinegraph/logic/domain.h"
 #include "kinegraph/task_planning/grasps.h"
 #include "kinegraph/task_planning/gripper_frames.h"
+#include "kinegraph/task_planning/motions/motion_checks.h"
+#include "kinegraph/task_planning/motions/start_contacts.h"
 #include "kinegraph/task_planning/open_hands.h"
 #include "kinegraph/task_planning/search/crowded_hands.h"
 #include "kinegraph/task_planning/search/goal_flaw.h"
-#include "kinegraph/task_planning/search/motion_checks.h"
 #include "kinegraph/task_planning/search/poor_placements.h"
-#include "kinegraph/task_planning/search/start_contacts.h"
 #include "kinegraph/task_planning/search/step_tolerance.h"
 #include "kinegraph/task_planning/search/task_conflicts.h"
 #include "kinegraph/task_planning/task_tools.h"
 
-namespace kinegraph {
+namespace kinegraph::inline task_planning_internal {
 
 namespace {
 
@@ -443,4 +443,4 @@ TaskPlan TaskSearch::noSequenceLeft() {
   return answer(TaskStatus::infeasible, logic_.infeasibility());
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline task_planning_internal

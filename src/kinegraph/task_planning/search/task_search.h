@@ -11,7 +11,7 @@
 #include "kinegraph/task_planning/search/plan_task.h"
 #include "kinegraph/task_planning/search/sequence_evaluator.h"
 
-namespace kinegraph {
+namespace kinegraph::inline task_planning_internal {
 
 /// The loop of planTasks: the logic proposes sequences of actions, geometry evaluates them, and failures become
 /// constraints of the logic.
@@ -94,4 +94,4 @@ class TaskSearch {
   std::unique_ptr<TaskSearch> narrower_;  ///< with hands that open less
 };
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline task_planning_internal

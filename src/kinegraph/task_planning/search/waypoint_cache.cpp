@@ -2,7 +2,7 @@
 
 #include <optional>
 
-namespace kinegraph {
+namespace kinegraph::inline task_planning_internal {
 
 WaypointCache::WaypointCache(SpeculativeExecutor& executor, const WaypointSolver::Settings& settings,
                              std::shared_ptr<const Config> scene, std::vector<TaskDoor> doors)
@@ -79,4 +79,4 @@ std::shared_ptr<const Config> WaypointCache::sceneOf(const SceneVariant& variant
   return scene;
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline task_planning_internal

@@ -11,7 +11,7 @@
 #include "kinegraph/task_planning/search/waypoint_solver.h"
 #include "kinegraph/task_planning/task_doors.h"
 
-namespace kinegraph {
+namespace kinegraph::inline task_planning_internal {
 
 /// A change of the initial scene, in which a sequence of actions is tested by itself.
 struct SceneVariant {
@@ -67,4 +67,4 @@ class WaypointCache {
   std::map<Key, WaypointSolver> prefetched_;  ///< threads may be working on them
 };
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline task_planning_internal

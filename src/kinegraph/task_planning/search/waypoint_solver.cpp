@@ -11,7 +11,7 @@
 #include "kinegraph/task_planning/grasps.h"
 #include "kinegraph/task_planning/violated_constraint.h"
 
-namespace kinegraph {
+namespace kinegraph::inline task_planning_internal {
 
 namespace {
 
@@ -215,4 +215,4 @@ FutureFailure WaypointSolver::failureAt(VectorXd x) const {
       }));
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline task_planning_internal

@@ -10,7 +10,7 @@
 #include "kinegraph/task_planning/search/task_failure.h"
 #include "kinegraph/task_planning/task_waypoints.h"
 
-namespace kinegraph {
+namespace kinegraph::inline task_planning_internal {
 
 /// Solves for the waypoints of a sequence of actions. It tries the variants of the actions, each from several initial
 /// guesses, until one is feasible. Guesses may be solved in parallel: the first feasible one in order counts, so that
@@ -66,4 +66,4 @@ class WaypointSolver {
   VectorXd first_;                                ///< the end of the solver from the first guess
 };
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline task_planning_internal

@@ -6,7 +6,7 @@
 
 #include "kinegraph/viewer/messages/packed_mesh.h"
 
-namespace kinegraph {
+namespace kinegraph::inline viewer_internal {
 
 namespace {
 
@@ -101,4 +101,4 @@ std::string encodeJoints(const VectorXd& q) {
   return data;
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline viewer_internal

@@ -8,7 +8,7 @@
 #include "kinegraph/viewer/messages/messages.h"
 #include "kinegraph/viewer/messages/shown.h"
 
-namespace kinegraph {
+namespace kinegraph::inline viewer_internal {
 
 /// Encoders of binary messages to the page: 4-byte numbers, beginning with a BinaryKind.
 
@@ -36,4 +36,4 @@ std::string encodeQuad(const Quad& quad);
 /// Encodes kind, dofs, then the joint values as float64.
 std::string encodeJoints(const VectorXd& q);
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline viewer_internal

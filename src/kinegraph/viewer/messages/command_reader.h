@@ -10,7 +10,7 @@
 
 #include "kinegraph/common/utf8.h"
 
-namespace kinegraph {
+namespace kinegraph::inline viewer_internal {
 
 /// Reads the fields of a command from a browser in order: int32, float64, arrays as length and float64s, texts as
 /// length and UTF-8. Returns false for missing fields and for numbers that are not finite.
@@ -63,4 +63,4 @@ std::optional<Command> readFields(CommandReader& reader, Fields Command::*... fi
   return command;
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline viewer_internal

@@ -9,7 +9,7 @@
 
 #include "kinegraph/viewer/messages/command_reader.h"
 
-namespace kinegraph {
+namespace kinegraph::inline viewer_internal {
 
 struct KeyCommand {
   static constexpr int kKind = 1;
@@ -140,4 +140,4 @@ inline std::optional<Command> readCommand(std::string_view data) {
   return std::nullopt;
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline viewer_internal

@@ -2,7 +2,7 @@
 
 #include "kinegraph/common/text.h"
 
-namespace kinegraph {
+namespace kinegraph::inline viewer_internal {
 
 namespace {
 
@@ -70,4 +70,4 @@ std::vector<std::string> InputEvents::take() {
   return names;
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline viewer_internal

@@ -6,7 +6,7 @@
 
 #include "kinegraph/viewer/messages/commands.h"
 
-namespace kinegraph {
+namespace kinegraph::inline viewer_internal {
 
 /// Returns the reference's name of a mouse or keyboard event: "click down left", "key up a", "scroll up", "mod shift"
 /// (the pressed modifiers from now on; "mod" alone: none). Returns an empty name for an unknown event.
@@ -22,4 +22,4 @@ class InputEvents {
   std::deque<std::string> names_;
 };
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline viewer_internal

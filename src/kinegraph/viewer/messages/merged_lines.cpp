@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-namespace kinegraph {
+namespace kinegraph::inline viewer_internal {
 
 namespace {
 
@@ -48,4 +48,4 @@ Mesh mergedLines(const Mesh& lines, double cell) {
   return merged;
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline viewer_internal

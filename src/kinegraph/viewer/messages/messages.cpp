@@ -5,7 +5,9 @@
 
 #include "kinegraph/common/json.h"
 
-namespace kinegraph {
+namespace kinegraph::inline viewer_internal {
+
+using common_internal::jsonOf;
 
 static boost::json::value jsonOf(const ShapeMessage& m) {
   return boost::json::object{
@@ -276,4 +278,4 @@ std::string jsonText(const NotifyMessage& message) { return boost::json::seriali
 
 std::string jsonText(const RunMessage& message) { return boost::json::serialize(jsonOf(message)); }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline viewer_internal

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-namespace kinegraph {
+namespace kinegraph::inline viewer_internal {
 
 /// First 4 bytes of a binary message to the client.
 enum class BinaryKind : std::uint32_t {
@@ -216,4 +216,4 @@ std::string jsonText(const PlotsMessage& message);
 std::string jsonText(const NotifyMessage& message);
 std::string jsonText(const RunMessage& message);
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline viewer_internal

@@ -4,7 +4,7 @@
 #include "kinegraph/common/text.h"
 #include "kinegraph/scene/tree/scene_tree.h"
 
-namespace kinegraph {
+namespace kinegraph::inline viewer_internal {
 
 NearLine nearLine(const State& state, int a, int b) {
   const KinematicModel& program = state.model();
@@ -26,4 +26,4 @@ std::vector<NearLine> nearLines(const Config& config, double margin) {
   return lines;
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline viewer_internal

@@ -9,7 +9,7 @@
 
 #include "kinegraph/viewer/messages/binary_messages.h"
 
-namespace kinegraph {
+namespace kinegraph::inline viewer_internal {
 
 namespace {
 
@@ -242,4 +242,4 @@ std::string packMesh(int number, const Mesh& mesh, double cell) {
   return data;
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline viewer_internal

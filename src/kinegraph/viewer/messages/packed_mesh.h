@@ -4,7 +4,7 @@
 
 #include "kinegraph/geometry/shapes/geometry.h"
 
-namespace kinegraph {
+namespace kinegraph::inline viewer_internal {
 
 /// Encodes triangles in few bytes that compress well: positions on a grid, and each triangle by the edge that it shares
 /// with a previous one. With `cell` > 0 (m), vertices of one color in a cube of that size are merged to their mean;
@@ -18,4 +18,4 @@ namespace kinegraph {
 /// the grid from the expected one, z(x) = 2x or -2x - 1, in 3 planes of all x, all y, all z. rgba in 4 planes.
 std::string packMesh(int number, const Mesh& mesh, double cell = 0.);
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline viewer_internal

@@ -5,7 +5,7 @@
 
 #include "kinegraph/viewer/messages/commands.h"
 
-namespace kinegraph {
+namespace kinegraph::inline viewer_internal {
 
 namespace {
 
@@ -58,4 +58,4 @@ RunRequests RunRequests::take() {
   return now;
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline viewer_internal

@@ -4,7 +4,7 @@
 
 #include "kinegraph/math/pose.h"
 
-namespace kinegraph {
+namespace kinegraph::inline viewer_internal {
 
 struct RunCommand;
 struct PerturbCommand;
@@ -29,4 +29,4 @@ struct RunRequests {
   RunRequests take();
 };
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline viewer_internal

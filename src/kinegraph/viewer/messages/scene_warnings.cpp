@@ -2,7 +2,7 @@
 
 #include "kinegraph/scene/tree/contact_warnings.h"
 
-namespace kinegraph {
+namespace kinegraph::inline viewer_internal {
 
 std::vector<SceneWarning> sceneWarnings(const Config& config) {
   const std::shared_ptr<SceneTree> scene = config.scene();
@@ -20,4 +20,4 @@ std::vector<SceneWarning> sceneWarnings(const Config& config) {
   return sentences;
 }
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline viewer_internal

@@ -5,7 +5,7 @@
 
 #include "kinegraph/scene/config.h"
 
-namespace kinegraph {
+namespace kinegraph::inline viewer_internal {
 
 /// A warning about unexpected collision settings: a sentence of Config::contactWarnings.
 struct SceneWarning {
@@ -17,4 +17,4 @@ struct SceneWarning {
 
 std::vector<SceneWarning> sceneWarnings(const Config& config);
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline viewer_internal

@@ -5,7 +5,7 @@
 
 #include "kinegraph/math/pose.h"
 
-namespace kinegraph {
+namespace kinegraph::inline viewer_internal {
 
 /// The state of a simulation on the page, beyond the scene.
 struct ShownRun {
@@ -24,4 +24,4 @@ struct ShownRun {
   std::optional<Spring> perturbation{};
 };
 
-}  // namespace kinegraph
+}  // namespace kinegraph::inline viewer_internal
