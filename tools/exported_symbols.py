@@ -20,7 +20,7 @@ OF_CLASS = re.compile(
     r"^(?:(?:construction )?vtable|typeinfo(?: name)?|VTT|guard variable|(?:non-)?virtual thunk) (?:for|to) "
 )
 OWNER = re.compile(r"^kinegraph::(\w+)")
-INNER = re.compile("_internal$")  # namespaces of rooms
+INNER = re.compile("_internal$|^(lanes|shaders)$")  # namespaces of rooms, and two of several ones
 NOT_CODE = re.compile(r'//[^\n]*|/\*.*?\*/|"[^"\n]*"|^#.*?$', re.MULTILINE | re.DOTALL)
 
 

@@ -390,6 +390,13 @@ def test_a_wall_on_the_table_of_a_panda_collides_with_its_first_link_and_the_tab
     assert ("l_panda_coll1", "table") not in pairs
 
 
+def test_links_that_never_move_do_not_collide_with_the_table_that_they_stand_in():
+    C = ry.Config()
+    C.addFile(ry.raiPath("scenarios/pandasTable.g"))
+    assert not {("l_panda_coll0", "table"), ("r_panda_coll0", "table")} & own_pairs(C)
+    assert ("l_panda_coll1", "table") in own_pairs(C) and C.getTotalPenetration() == 0.0
+
+
 @pytest.mark.parametrize("mark", ["true", "1", "0", "later"])
 def test_the_base_of_a_robot_is_marked_by_true_or_a_number_in_the_file_or_later(mark):
     C = ry.Config()

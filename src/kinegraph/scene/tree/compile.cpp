@@ -190,6 +190,30 @@ const FrameData* partFrame(const FrameData* frame, const std::vector<char>& grou
   return frame;
 }
 
+/// Excludes what never moves against each other: the links of a robot that stand still, within `contact: -k` joints, and
+/// what is fixed to the ground.
+void excludeStandingLinks(const SceneTree& scene, ContactRules& rules) {
+  const auto rootOf = [](const FrameData* frame) {
+    while (frame->parent) frame = frame->parent;
+    return frame;
+  };
+  for (const ContactRules::Body& a : rules.bodies) {
+    int joints = 0;
+    bool is_still = true;
+    const FrameData* link = scene.frames()[std::size_t(a.frame)].get();
+    for (const FrameData* frame = link; frame; frame = frame->parent) {
+      joints += frame->joint.has_value();
+      is_still = is_still && !frame->moves();
+    }
+    if (!is_still || joints == 0 || joints > -a.flag) continue;
+    for (const ContactRules::Body& b : rules.bodies) {
+      if (rules.parts[std::size_t(b.part)].jointed) continue;
+      if (rootOf(scene.frames()[std::size_t(b.frame)].get()) == rootOf(link))
+        rules.excluded.push_back(std::minmax(a.frame, b.frame));
+    }
+  }
+}
+
 bool takesPart(const FrameData& frame) {
   return frame.shape && frame.shape->contact != 0 && !shapeKind(frame.shape->geometry->type).is_symbol;
 }
@@ -215,6 +239,7 @@ ContactRules contactRules(const SceneTree& scene) {
         frame->parent && !frame->joint ? frame->parent->id : frame->id;  // a fixed shape belongs to its parent
     rules.bodies.push_back({frame->id, part_of[partOf(frame.get())->id], frame->shape->contact, owner});
   }
+  excludeStandingLinks(scene, rules);
   std::sort(rules.excluded.begin(), rules.excluded.end());
   return rules;
 }
