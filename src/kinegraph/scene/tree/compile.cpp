@@ -190,7 +190,7 @@ const FrameData* partFrame(const FrameData* frame, const std::vector<char>& grou
   return frame;
 }
 
-/// Excludes what never moves against each other: the links of a robot that stand still, within `contact: -k` joints, and
+/// Excludes what never moves against each other: links of a robot that stand still, within `contact: -k` joints, and
 /// what is fixed to the ground.
 void excludeStandingLinks(const SceneTree& scene, ContactRules& rules) {
   const auto rootOf = [](const FrameData* frame) {
