@@ -166,8 +166,12 @@ bool isRobotBase(const FrameData& frame) {
   return flag && *flag;
 }
 
-/// The frames without joints on which robots and other things stand, each for itself: a root `world`, and roots and
-/// what is fixed to them above the base of a robot (`multibody`).
+bool takesPart(const FrameData& frame) {
+  return frame.shape && frame.shape->contact != 0 && !shapeKind(frame.shape->geometry->type).is_symbol;
+}
+
+/// The frames without joints on which robots and other things stand, each for itself: a root `world`, and the body to
+/// which the base of a robot (`multibody`) is attached, with all above it, if they are fixed.
 std::vector<char> groundFrames(const SceneTree& scene) {
   const auto isFixed = [](const FrameData& frame) { return !frame.joint; };
   std::vector<char> grounds(scene.frames().size(), 0), robots(scene.frames().size(), 0);
@@ -179,6 +183,7 @@ std::vector<char> groundFrames(const SceneTree& scene) {
     std::vector<const FrameData*> above;
     for (const FrameData* base = frame->parent; base && isFixed(*base); base = base->parent) above.push_back(base);
     if (above.empty() || above.back()->parent) continue;  // it stands on something that moves
+    if (!takesPart(*above.front())) continue;             // what it stands on is beside it
     for (const FrameData* ground : above) grounds[ground->id] = 1;
   }
   return grounds;
@@ -212,10 +217,6 @@ void excludeStandingLinks(const SceneTree& scene, ContactRules& rules) {
         rules.excluded.push_back(std::minmax(a.frame, b.frame));
     }
   }
-}
-
-bool takesPart(const FrameData& frame) {
-  return frame.shape && frame.shape->contact != 0 && !shapeKind(frame.shape->geometry->type).is_symbol;
 }
 
 }  // namespace
