@@ -264,6 +264,7 @@ SeenScene findThings(Config& config, std::span<const DepthView> given, const std
   Registration registration(things, views, points);
   registration.run();
   if (anywhere) registration.findLost();
+  for (Thing& thing : things) keepRotation(thing);
 
   const auto countsAt = [&](const Thing& thing, const RigidTransform& X) {
     return countSurface(thing.shape, X, views, int(thing.shape.samples().size()), true);

@@ -71,6 +71,24 @@ bool looksTheSame(const VisibleShape& shape, const RigidTransform& a, const Rigi
   return Quaterniond(a.R).angularDistance(Quaterniond(b.R)) < kSmallAngle || isSymmetry(shape, a.inverse() * b);
 }
 
+void keepRotation(Thing& thing) {
+  constexpr double kOther = .6, kNearer = 1e-6;  // rad
+  const auto angle = [&](const Matrix3d& R) { return Quaterniond(R).angularDistance(Quaterniond(thing.last.R)); };
+  if (thing.is_lost || angle(thing.best.X.R) < kOther) return;
+  const Vector3d middle = thing.middle();
+  RigidTransform nearest = thing.best.X;
+  for (int i = 0; i < 24; ++i) {  // the rotations that exchange axes
+    const int axis = i / 8, next = (axis + 1 + i % 2) % 3;
+    Matrix3d Q;
+    Q.col(0) = (i & 2 ? -1. : 1.) * Vector3d::Unit(axis);
+    Q.col(1) = (i & 4 ? -1. : 1.) * Vector3d::Unit(next);
+    Q.col(2) = Q.col(0).cross(Q.col(1));
+    const RigidTransform turn{Q, middle - Q * middle}, X = thing.best.X * turn;
+    if (angle(X.R) < angle(nearest.R) - kNearer && isSymmetry(thing.shape, turn)) nearest = X;
+  }
+  thing.best.X = nearest;
+}
+
 void Registration::run() {
   std::vector<int> free_for_all(points_.size(), -1);
   for (Thing& thing : things_) {

@@ -53,6 +53,10 @@ bool isSymmetry(const VisibleShape& shape, const RigidTransform& displacement);
 /// are turned by more than 17 degrees do not.
 bool looksTheSame(const VisibleShape& shape, const RigidTransform& a, const RigidTransform& b);
 
+/// Turns the best pose of a thing to the one nearest to its last rotation, of those that look the same because the
+/// shape is symmetric about the axes of its frame: a cube keeps its sides from look to look.
+void keepRotation(Thing& thing);
+
 /// The rotations of a resting thing: each stable face down, about the vertical in steps of 45 degrees, without those
 /// that look the same.
 std::vector<Matrix3d> restingRotations(const Thing& thing);
