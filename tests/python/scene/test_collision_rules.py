@@ -398,7 +398,7 @@ def test_links_that_never_move_do_not_collide_with_the_table_that_they_stand_in(
 @pytest.mark.parametrize("mark", ["true", "1", "0", "later"])
 def test_the_base_of_a_robot_is_marked_by_true_or_a_number_in_the_file_or_later(mark):
     C = ry.Config()
-    C.addText(f"""table: {{}}
+    C.addText(f"""table: {{ shape: ssBox, size: [2 2 .1 .01], contact: 1 }}
       base (table): {{ {"" if mark == "later" else f"multibody: {mark}, "}shape: sphere, size: [.1], contact: 1 }}
       a (base): {{ joint: hingeZ, shape: sphere, size: [.1], contact: -2 }}
       wall (table): {{ shape: sphere, size: [.1], contact: 1 }}""")

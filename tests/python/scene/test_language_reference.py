@@ -129,7 +129,7 @@ def named_in(module):
 
 
 def test_the_reference_of_urdf_names_the_words_that_the_reader_reads():
-    text = (PARSERS / "parsers" / "urdf_model.cpp").read_text()
+    text = (PARSERS / "parsers" / "urdf" / "urdf_model.cpp").read_text()
     calls = r'(?:text|number|vector|limitOf)\(\*?\w+, "(\w+)"|ofMotor\("(\w+)"\)|(?:attribute|child|all)\("(\w+)"\)|\.name == "(\w+)"'
     read = {word for words in re.findall(calls, text) for word in words if word}
     assert len(read) > 40
@@ -137,7 +137,7 @@ def test_the_reference_of_urdf_names_the_words_that_the_reader_reads():
 
 
 def test_the_reference_of_mjcf_names_the_attributes_that_the_reader_reads():
-    text = (PARSERS / "parsers" / "mjcf_check.cpp").read_text()
+    text = (PARSERS / "parsers" / "mjcf" / "mjcf_check.cpp").read_text()
     tables = text[text.index("Names> known = {") : text.index("const auto names = known.find")]
     elements = {"body", "joint", "geom", "site", "camera", "inertial"}
     read = set(re.findall(r'"(\w+)"', tables)) - elements
@@ -145,7 +145,7 @@ def test_the_reference_of_mjcf_names_the_attributes_that_the_reader_reads():
         r'(?:attribute|own)\("(\w+)"\)|attribute\.name == "(\w+)"|name == "(\w+mass|\w+inertia)"'
         r'|(?:number|numbers|vector|upTo|keyword|triple|first|reachOf)\(\*?\w+(?:\(\*?\w+, \{\}\))?, "(\w+)"(?:, "(\w+)")?'
     )
-    for file in (PARSERS / "parsers").glob("mjcf_*.cpp"):
+    for file in (PARSERS / "parsers" / "mjcf").glob("mjcf_*.cpp"):
         read |= {word for words in calls.findall(file.read_text()) for word in words if word}
     read -= {"objname", "refname", "objtype", "reftype", "role", "condim"}  # names in sections that are not read
     missing = read - named_in(mjcf)
