@@ -182,7 +182,7 @@ def test_a_large_roadmap_is_a_small_element(config: kg.Config) -> None:
 def test_pictures_are_of_the_scene_after_a_plan_was_shown(config: kg.Config) -> None:
     plan = plan_in(config)
     plan.view(config, pause=False)
-    config.viewer().setWindow("", 160, 120)
+    config.viewer().setWindow("", 320, 240)  # smaller ones are covered by the text of the plan
     before = config.viewer().getRgb()
     config.setJointState(plan.path[-1])
     assert np.abs(config.viewer().getRgb().astype(int) - before).max() > 40
