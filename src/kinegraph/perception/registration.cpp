@@ -111,11 +111,7 @@ bool Registration::tryDoubtful() {
     if (thing.score < kWrongScore || !isDoubtful(thing, owners)) continue;
     std::vector<PoseCandidate> candidates{thing.best};
     tryStarts(thing, int(i), owners, thing.best.X, true, candidates);
-    const auto better = [](const PoseCandidate& a, const PoseCandidate& b) { return a.value > b.value; };
-    std::stable_sort(candidates.begin() + 1, candidates.end(), better);
-    // The present pose stays first among similar ones: a symmetric thing keeps its rotation.
-    if (candidates.size() > 1 && candidates[1].value > candidates[0].value + kSimilarScore)
-      std::stable_sort(candidates.begin(), candidates.end(), better);
+    std::sort(candidates.begin(), candidates.end(), [](auto& a, auto& b) { return a.value > b.value; });
     refine(thing, int(i), owners, candidates);
     owners = ownersOfPoints();
     has_changed = true;
